@@ -1,0 +1,16 @@
+# Every library is a Debian 12 package; the README says why each one is here.
+find_package(Eigen3 3.4 REQUIRED CONFIG)  # before CGAL, which would look for another one
+find_package(OpenMP REQUIRED)
+find_package(fmt REQUIRED)
+find_package(assimp REQUIRED)
+find_package(CGAL REQUIRED)
+find_package(embree 3 REQUIRED)
+find_package(yaml-cpp REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
+find_package(HDF5 REQUIRED COMPONENTS C)
+find_package(VTK REQUIRED COMPONENTS CommonCore CommonDataModel IOXML)
+find_package(GTest REQUIRED)
+find_package(benchmark REQUIRED)
+find_path(UDUNITS2_INCLUDE udunits2.h PATH_SUFFIXES udunits2 REQUIRED)
+find_library(UDUNITS2_LIBRARY udunits2 REQUIRED)

@@ -1,0 +1,23 @@
+# sluice_module(NAME LIBS...): library sluice_NAME from src/NAME/*.cpp.
+function(sluice_module name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/src/${name}/*.cpp)
+  if(NOT sources)
+    file(WRITE ${CMAKE_BINARY_DIR}/empty.cpp "")
+    set(sources ${CMAKE_BINARY_DIR}/empty.cpp)
+  endif()
+  add_library(sluice_${name} STATIC ${sources})
+  target_include_directories(sluice_${name} PUBLIC ${CMAKE_SOURCE_DIR}/src)
+  target_link_libraries(sluice_${name} PUBLIC ${ARGN})
+endfunction()
+
+# sluice_tests(NAME LIBS...): one test program NAME_test from tests/NAME/*_test.cpp, every TEST one CTest entry.
+function(sluice_tests name)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${name}/*.cpp)
+  if(sources)
+    add_executable(${name}_test ${sources})
+    target_include_directories(${name}_test PRIVATE ${CMAKE_SOURCE_DIR}/tests)
+    target_link_libraries(${name}_test PRIVATE ${ARGN} GTest::gtest GTest::gtest_main fmt::fmt)
+    target_compile_definitions(${name}_test PRIVATE SLUICE_ROOT="${CMAKE_SOURCE_DIR}")
+    gtest_discover_tests(${name}_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  endif()
+endfunction()

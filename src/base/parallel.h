@@ -1,0 +1,71 @@
+#pragma once
+/// Loops over threads whose results do not depend on how many there are.
+///
+/// Work is cut into chunks of a fixed length, whatever the thread count; sums are taken chunk by
+/// chunk and added in chunk order. Never an atomic on a float, never an OpenMP reduction.
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <exception>
+#include <vector>
+
+namespace sluice {
+
+inline int thread_count() {
+  return omp_get_max_threads();
+}
+inline void set_thread_count(int n) {
+  omp_set_num_threads(n);
+}
+
+/// Calls body(chunk, begin, end) for each chunk of [0, n). An exception thrown by a chunk is thrown
+/// again after the loop; of several, the one of the lowest chunk.
+template <class Body>
+void parallel_chunks(std::size_t n, std::size_t chunk_length, const Body& body) {
+  const std::size_t chunks = (n + chunk_length - 1) / chunk_length;
+  if (chunks <= 1 || thread_count() == 1) {
+    for (std::size_t c = 0; c < chunks; ++c) body(c, c * chunk_length, std::min(n, (c + 1) * chunk_length));
+    return;
+  }
+  std::exception_ptr error;
+  std::size_t error_chunk = chunks;
+#pragma omp parallel for schedule(dynamic, 1)
+  for (std::size_t c = 0; c < chunks; ++c) {
+    try {
+      body(c, c * chunk_length, std::min(n, (c + 1) * chunk_length));
+    } catch (...) {
+#pragma omp critical(sluice_parallel_error)
+      if (c < error_chunk) {
+        error = std::current_exception();
+        error_chunk = c;
+      }
+    }
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+/// Calls body(i) for each i in [0, n).
+template <class Body>
+void parallel_for(std::size_t n, const Body& body, std::size_t chunk_length = 256) {
+  parallel_chunks(n, chunk_length, [&](std::size_t, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// Sum of term(i) over [0, n): the same bits for any number of threads. T needs += and T{} as zero.
+template <class T, class Term>
+T parallel_sum(std::size_t n, const Term& term, T zero = T{}, std::size_t chunk_length = 1024) {
+  std::vector<T> partial((n + chunk_length - 1) / chunk_length, zero);
+  parallel_chunks(n, chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    T sum = zero;
+    for (std::size_t i = begin; i < end; ++i) sum += term(i);
+    partial[c] = sum;
+  });
+  T total = zero;
+  for (const T& p : partial) total += p;
+  return total;
+}
+
+}  // namespace sluice

@@ -1,0 +1,57 @@
+#pragma once
+/// What rock and water do to each other, unresolved: void fraction and drag on a coupling grid that is
+/// coarser than the fluid's nodes. Called between points_to_grid and walls of a fluid step.
+///
+///   solids_to_grid   rocks -> volume and void fraction on the coupling grid (kernel renormalised per rock)
+///   drag             fluid nodes -> coupling grid; drag, buoyancy; the same impulse to both sides
+///
+/// Drag is evaluated once per exchange; the rocks keep the force over their substeps.
+
+#include <memory>
+
+#include "base/schema.h"
+#include "base/state_archive.h"
+#include "dem/dem_system.h"
+#include "fluid/fluid_system.h"
+
+namespace sluice {
+
+enum class CouplingMode { two_way, one_way };  ///< one-way: rocks feel the water, not the other way round
+enum class DragModel { di_felice, schiller_naumann, gidaspow };
+
+/// Keys under `coupling:` of a process file.
+struct CouplingConfig {
+  CouplingMode mode = CouplingMode::two_way;
+  DragModel drag = DragModel::di_felice;
+  double kernel_diameters = 4;       ///< full width of the kernel over the rock's size
+  double filter_time_factor = 7;     ///< buoyancy is filtered over this many h / c
+  std::int64_t wetting_points = 32;  ///< points on each rock that find its wetted fraction
+  void keys(Schema& s);
+};
+
+class Coupling {
+ public:
+  /// Both systems must outlive the coupling.
+  Coupling(const CouplingConfig& config, const Domain& domain, const Vec3& gravity, DemSystem& rocks,
+           FluidSystem& fluid);
+  ~Coupling();
+
+  void solids_to_grid();
+  /// @param dt  over which the forces will act on both sides [s]
+  void drag(double dt);
+
+  const std::vector<double>& wetted_fraction() const;  ///< per rock, of the last call, 0..1
+  const std::vector<Vec3>& drag_force() const;         ///< per rock [N]
+  const std::vector<Vec3>& buoyancy_force() const;     ///< per rock [N]
+  Vec3 impulse_on_rocks() const;                       ///< since start [N s]
+  Vec3 impulse_on_fluid() const;                       ///< since start; the opposite in two-way [N s]
+  double smallest_kernel_ratio() const;                ///< kernel over rock size that was reached
+  std::size_t memory_bytes() const;
+  void exchange(StateArchive& archive);
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace sluice
