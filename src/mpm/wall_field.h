@@ -1,0 +1,83 @@
+#pragma once
+/// Walls as a fluid on a regular grid sees them: which nodes a point can see, which planes are active at
+/// a node, how much of a node's cell is open, and where a path first meets a wall.
+///
+/// A point and a node see each other when the segment between them crosses no triangle. Coplanar
+/// neighbouring triangles are merged into patches. Per near-wall cell, a list of the patches within
+/// reach of its stencil:
+///
+///   full patch     covers the whole stencil region: visibility is the side of its plane (one dot
+///                  product and a precomputed bit mask of node sides)
+///   partial patch  ends inside the region (lip, corner, T-joint): nodes on the far side are tested
+///                  with the segment against the patch's triangles
+///
+/// Cells without a record take the plain kernel.
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+
+#include "base/domain.h"
+#include "geometry/wall.h"
+
+namespace sluice {
+
+/// A plane that acts on a node or a point. `normal` points towards the wall (out of the fluid).
+struct WallPlane {
+  Vec3 normal = Vec3::Zero();
+  double distance = 0;  ///< from the node or point to the plane, >= 0 [m]
+  int wall = -1;        ///< index of Walls::all()
+  int patch = -1;
+};
+
+/// Which of the 27 nodes around a point are hidden from it. Bit i + 3 j + 9 k for the node base + (i, j, k).
+struct Visibility {
+  std::uint32_t hidden = 0;
+  std::array<std::int32_t, 27> patch{};  ///< patch that hides the node first; valid where hidden
+};
+
+struct WallHit {
+  double s = 0;  ///< along the path, 0..1
+  Vec3 point = Vec3::Zero();
+  Vec3 normal = Vec3::Zero();  ///< unit, on the side from which the path came
+  int wall = -1;
+  int patch = -1;
+};
+
+class WallField {
+ public:
+  /// Nodes lie at origin + h (i, j, k). Walls that block water only, or both.
+  WallField(const Walls& walls, const Domain& domain, const Vec3& origin, double h);
+  ~WallField();
+
+  /// Record of the stencil whose lowest node is `base`, or -1 where no wall is within reach.
+  int stencil(const Vec3i& base) const;
+  /// Hidden nodes for a point x [m] whose stencil starts at `base`.
+  void visibility(int stencil, const Vec3i& base, const Vec3& x, Visibility& out) const;
+  /// Patches within 1.5 h of the point and visible from it, nearest first; at most `max` are written.
+  int planes_of_point(int stencil, const Vec3& x, WallPlane* out, int max) const;
+
+  /// Active planes of a node: distance < 1.5 h, foot visible, greedy by distance, merged where their
+  /// normals' dot product exceeds 0.75. Empty for nodes without walls near.
+  std::span<const WallPlane> planes_of_node(const Vec3i& node) const;
+  /// Fraction of the node's quadratic B-spline support (weighted) that is on the node's side of the walls
+  /// near it, 1 far from walls; never below 0.02. Weighted by the spline, so that full water reads fill = 1.
+  double open_fraction(const Vec3i& node) const;
+
+  /// First wall met on the way from a to b (double precision, watertight over shared edges).
+  std::optional<WallHit> first_hit(int stencil, const Vec3& a, const Vec3& b) const;
+
+  const Vec3& patch_normal(int patch) const;
+  int patch_wall(int patch) const;
+  int patch_count() const;
+  Vec3 surface_velocity(int wall, const Vec3& at) const;
+  std::size_t memory_bytes() const;
+
+ private:
+  struct Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace sluice
