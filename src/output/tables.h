@@ -1,0 +1,59 @@
+#pragma once
+/// The tables of a run folder besides the series. The run page reads them by column name.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "base/load.h"
+#include "output/csv.h"
+
+namespace sluice {
+
+inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+
+/// A mean with its 95 % confidence limits; NaN = not known.
+struct Estimate {
+  double mean = not_known, low = not_known, high = not_known;
+};
+
+/// One bin across the width of one exit; averages over [from_s, to_s]. One row of exits.csv.
+struct ExitBinRow {
+  std::string exit;
+  int bin = 0;                                  ///< from 0
+  double from_m = 0, to_m = 0;                  ///< along the width, from its first end
+  double from_s = not_known, to_s = not_known;  ///< averaging interval
+  Estimate rock_kg_s, water_kg_s;               ///< water with its fines
+  double fines_kg_s = not_known;
+  Estimate water_m3_per_t;  ///< water per tonne of rock
+  double rock_speed_m_s = not_known, water_speed_m_s = not_known;
+  double rock_size_mean_m = not_known;  ///< by mass
+  double rock_size_p80_m = not_known;   ///< 80 % of the mass is finer
+  double rock_energy_W = not_known;     ///< kinetic energy landing per second
+  double dry_rock_kg_s = not_known;     ///< rock that left unwetted
+  double rock_residence_s = not_known;  ///< mean time since the feed
+};
+CsvTable exit_table(const std::vector<ExitBinRow>& rows);
+
+/// Mixing of one zone along the box at one time. One row of mixing.csv.
+struct MixingRow {
+  double time_s = 0;
+  std::string zone;               ///< name of the zone, or of the station along the box
+  double position_m = not_known;  ///< along the box
+  double rock_kg = not_known, water_kg = not_known;
+  double rock_lacey = not_known;            ///< of rock sizes: 0 segregated, 1 random mixture
+  double water_to_rock_cov = not_known;     ///< over the zone's cells
+  double wetted_rock_fraction = not_known;  ///< of rock mass
+};
+CsvTable mixing_table(const std::vector<MixingRow>& rows);
+
+/// One wall: loads since the run began and mean forces over it. One row of walls.csv.
+struct WallRow {
+  std::string wall;
+  double area_m2 = 0;
+  double time_s = 0;  ///< over which the loads were gathered
+  WallLoad rock, water;
+};
+CsvTable wall_table(const std::vector<WallRow>& rows);
+
+}  // namespace sluice
