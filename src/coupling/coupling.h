@@ -2,23 +2,34 @@
 /// What rock and water do to each other, unresolved: void fraction and drag on a coupling grid that is
 /// coarser than the fluid's nodes. Called between points_to_grid and walls of a fluid step.
 ///
-///   solids_to_grid   rocks -> volume and void fraction on the coupling grid (kernel renormalised per rock)
-///   drag             fluid nodes -> coupling grid; drag, buoyancy; the same impulse to both sides
+///   solids_to_grid  rocks -> volume on the coupling grid (kernel renormalised per rock)
+///   drag            fluid nodes -> coupling grid; wetted fraction, drag, buoyancy; the same impulse to
+///                   both sides; void fraction to the fluid
+///   fluid_to_grid   after the fluid has moved: its acceleration, walls included, for the buoyancy
 ///
 /// Drag is evaluated once per exchange; the rocks keep the force over their substeps.
+///
+/// Per wet node n of the coupling grid, rocks r with weights w (sum 1 over the wet nodes of a rock):
+///   b = m_r (1 - exp(-beta dt / m_r))                       what a rock can take up in dt [kg]
+///   u' = (m u + sum b w v_r) / (m + sum b w)                all rocks of a node at once
+///   impulse on r from n = b w (u' - v_r), its opposite on n
+/// so that no node is overdrawn, nothing overshoots, and the third law holds to rounding.
+///
+/// Buoyancy is s V rho (Du/Dt - g), s the wetted fraction, low-passed: Archimedes in still water,
+/// nothing in free fall. The fluid carries the pressure gradient of the whole space and gives the
+/// rocks' share back through this impulse. No torque and no added mass in this range.
 
 #include <memory>
 
 #include "base/schema.h"
 #include "base/state_archive.h"
+#include "coupling/drag_law.h"
 #include "dem/dem_system.h"
 #include "fluid/fluid_system.h"
 
 namespace sluice {
 
 enum class CouplingMode { two_way, one_way };  ///< one-way: rocks feel the water, not the other way round
-enum class DragModel { di_felice, schiller_naumann, gidaspow };
-
 /// Keys under `coupling:` of a process file.
 struct CouplingConfig {
   CouplingMode mode = CouplingMode::two_way;
@@ -39,13 +50,16 @@ class Coupling {
   void solids_to_grid();
   /// @param dt  over which the forces will act on both sides [s]
   void drag(double dt);
+  /// @param dt  of the fluid step that just ended [s]
+  void fluid_to_grid(double dt);
 
   const std::vector<double>& wetted_fraction() const;  ///< per rock, of the last call, 0..1
   const std::vector<Vec3>& drag_force() const;         ///< per rock [N]
   const std::vector<Vec3>& buoyancy_force() const;     ///< per rock [N]
   Vec3 impulse_on_rocks() const;                       ///< since start [N s]
   Vec3 impulse_on_fluid() const;                       ///< since start; the opposite in two-way [N s]
-  double smallest_kernel_ratio() const;                ///< kernel over rock size that was reached
+  double smallest_kernel_ratio() const;   ///< kernel width over rock size, least so far; 0 = no rock yet
+  double smallest_void_fraction() const;  ///< handed to the fluid, least so far
   std::size_t memory_bytes() const;
   void exchange(StateArchive& archive);
 

@@ -2,21 +2,22 @@
 /// The rocks and everything that moves them. Valid after the constructor; owns its scratch.
 
 #include <memory>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "base/domain.h"
 #include "base/load.h"
 #include "base/schema.h"
 #include "base/state_archive.h"
 #include "base/statistics.h"
+#include "dem/contact_law.h"
 #include "dem/materials.h"
 #include "dem/rock_shape.h"
 #include "dem/rocks.h"
 #include "geometry/wall.h"
 
 namespace sluice {
-
-enum class EndOfContact { no_tension, tension };
 
 /// Keys under `rocks:` of a process file.
 struct DemConfig {
@@ -100,6 +101,9 @@ class DemSystem {
   /// Force [N] and torque [N m] from the fluid, space frame, one per rock; held until set again.
   /// Rocks added later start with none; removals keep the others.
   void set_fluid_force(std::span<const Vec3> force, std::span<const Vec3> torque);
+
+  /// Adds wetted fraction x dt to each rock's wet dose; one entry per rock.
+  void add_wet_dose(std::span<const double> wetted_fraction, double dt);
 
   /// One time step of `dt` [s] starting at time `t` [s].
   /// @throws NumericalError: NaN, overlap beyond the limit

@@ -18,15 +18,15 @@ namespace sluice {
 
 /// Nodes with mass, in a fixed order; structure of arrays of #N. Valid until the next fluid call.
 struct FluidNodes {
-  double spacing = 0;              ///< [m]
-  std::vector<Vec3> x;             ///< [m]
-  std::vector<double> mass;        ///< [kg]
-  std::vector<Vec3> v;             ///< after forces and gravity, before walls and coupling [m/s]
-  std::vector<Vec3> acceleration;  ///< (v after forces - v before) / dt: gravity and pressure [m/s2]
-  std::vector<double> pressure;    ///< mass-weighted [Pa]
-  std::vector<double> fill;        ///< fluid volume over the space open to it, 1 = full
-  std::vector<double> viscosity;   ///< [Pa s]
-  std::vector<double> density;     ///< of the fluid itself [kg/m3]
+  double spacing = 0;               ///< [m]
+  std::vector<Vec3> x;              ///< [m]
+  std::vector<double> mass;         ///< [kg]
+  std::vector<Vec3> v;              ///< after forces and gravity, before walls and coupling [m/s]
+  std::vector<double> open_volume;  ///< space of the node that walls leave free, whatever is in it [m3]
+  std::vector<double> pressure;     ///< mass-weighted [Pa]
+  std::vector<double> fill;         ///< fluid volume over the space open to it, 1 = full
+  std::vector<double> viscosity;    ///< [Pa s]
+  std::vector<double> density;      ///< of the fluid itself [kg/m3]
   std::size_t count() const { return mass.size(); }
 };
 
@@ -63,6 +63,10 @@ class FluidSystem {
   /// @throws NumericalError: NaN, a step longer than a point's path allows
   virtual void grid_to_points(double dt) = 0;
 
+  /// Material acceleration Du/Dt of each node in the step that just ended, walls, pressure, gravity and
+  /// coupling included: (v at the end - v that the points brought) / dt [m/s2]. In the order of
+  /// read_nodes; valid after grid_to_points until the next points_to_grid.
+  virtual void read_accelerations(std::vector<Vec3>& acceleration) const = 0;
   /// For the coupling, between points_to_grid and walls.
   virtual void read_nodes(FluidNodes& nodes) const = 0;
   /// Impulse per node [N s], in the order of read_nodes; momentum arrives exactly.
@@ -74,8 +78,10 @@ class FluidSystem {
   virtual const std::vector<WallLoad>& wall_loads() const = 0;  ///< one per wall
   virtual Vec3 momentum() const = 0;                            ///< [N s]
   virtual Vec3 impulse_from_gravity() const = 0;                ///< since start [N s]
-  virtual double kinetic_energy() const = 0;                    ///< [J]
-  virtual double largest_speed() const = 0;                     ///< of any point in the last step [m/s]
+  virtual Vec3 momentum_added() const = 0;                      ///< by add() since start [N s]
+  virtual Vec3 momentum_removed() const = 0;     ///< by remove_if and remove_outside since start [N s]
+  virtual double kinetic_energy() const = 0;     ///< [J]
+  virtual double largest_speed() const = 0;      ///< of any point in the last step [m/s]
   virtual double total_mass() const = 0;         ///< of the points inside, as stored, summed in double [kg]
   virtual double total_fines() const = 0;        ///< [kg]
   virtual std::uint64_t state_hash() const = 0;  ///< sum of hashes per point by id
