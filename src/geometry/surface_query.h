@@ -24,18 +24,20 @@ struct SegmentHit {
 
 class SurfaceQuery {
  public:
-  /// The mesh must outlive the query.
+  /// Keeps its own copy of the corners; the mesh may go.
   explicit SurfaceQuery(const TriMesh& mesh);
   ~SurfaceQuery();
   SurfaceQuery(const SurfaceQuery&) = delete;
   SurfaceQuery& operator=(const SurfaceQuery&) = delete;
 
-  /// Triangles whose bounding box meets the box, ascending. Appended to `found` after clearing it.
+  /// Triangles whose bounding box meets the closed box, ascending; `found` is cleared first.
   void triangles_in(const Box& box, std::vector<int>& found) const;
-  /// Nearest point of the surface within `reach` [m].
+  /// Nearest point of the surface within `reach` [m]; of equally near triangles the lowest.
   std::optional<NearestPoint> nearest(const Vec3& x, double reach) const;
   /// First triangle that the closed segment a-b crosses or touches; ties go to the lowest triangle.
-  /// Watertight: a segment through a shared edge or vertex is a hit of at least one triangle.
+  /// Watertight, by exact signs: a segment through a shared edge or vertex hits at least one triangle.
+  /// A segment inside a triangle's plane hits where it enters the triangle. Triangles without area are
+  /// not there.
   std::optional<SegmentHit> first_hit(const Vec3& a, const Vec3& b) const;
   /// Number of crossings of the ray x + s d, s > 0 (for the inside test).
   int crossings(const Vec3& x, const Vec3& d) const;
