@@ -1,0 +1,38 @@
+#pragma once
+/// The commands of the program; each returns an exit code or throws one of base/errors.h.
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace sluice {
+
+struct RunOptions {
+  std::filesystem::path process;
+  std::filesystem::path out;  ///< empty: out/ + the process file's stem
+  int threads = 0;            ///< 0: all
+  std::string until;          ///< with unit; empty: the process's duration
+  bool resume = false;
+  std::vector<std::string> overrides;
+};
+int run_process(const RunOptions& options);
+
+struct CheckOptions {
+  std::filesystem::path process;
+  std::vector<std::string> overrides;
+};
+int check_process(const CheckOptions& options);
+
+struct ExplainOptions {
+  std::string key;
+  bool schema = false;
+};
+int explain_keys(const ExplainOptions& options);
+
+struct ReportOptions {
+  std::vector<std::filesystem::path> runs;
+  std::filesystem::path out;
+};
+int report_runs(const ReportOptions& options);
+
+}  // namespace sluice

@@ -1,0 +1,85 @@
+/// sluice: run | check | explain | report. What each does is in its own file; here are the command line and
+/// the exit codes: 0 done, 1 a bug, 2 bad input, 3 numerical failure, 4 environment, 130 interrupted.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "app/commands.h"
+#include "base/errors.h"
+#include "base/parallel.h"
+#include "sluice_version.h"
+
+namespace {
+
+int guarded(const std::function<int()>& command) {
+  try {
+    return command();
+  } catch (const sluice::InputError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 2;
+  } catch (const sluice::NumericalError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 3;
+  } catch (const sluice::EnvironmentError& e) {
+    std::fprintf(stderr, "%s\n", e.what());
+    return 4;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "out of memory: `sluice check` estimates what a process needs\n");
+    return 4;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "internal error, please report it: %s\n", e.what());
+    return 1;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app("Sluice: rock and water through feed boxes, chutes and screens");
+  app.set_version_flag(
+      "--version", std::string("sluice ") + sluice::program_version + " (" + sluice::program_commit + ")");
+  app.require_subcommand(1);
+
+  sluice::RunOptions run;
+  CLI::App* run_command = app.add_subcommand("run", "simulate a process");
+  run_command->add_option("process", run.process, "process file (YAML)")->required();
+  run_command->add_option("--out", run.out, "run folder [out/NAME]");
+  run_command->add_option("--threads", run.threads, "threads [all]")->check(CLI::PositiveNumber);
+  run_command->add_option("--until", run.until, "end at this simulated time, such as '2 s'");
+  run_command->add_flag("--resume", run.resume, "go on from the run folder's checkpoint");
+  run_command->add_option("--set", run.overrides, "key=value, over the process file; may be repeated");
+
+  sluice::CheckOptions check;
+  CLI::App* check_command = app.add_subcommand(
+      "check", "read a process, audit its CAD, list parts and estimates; simulate nothing");
+  check_command->add_option("process", check.process, "process file (YAML)")->required();
+  check_command->add_option("--set", check.overrides, "key=value, over the process file; may be repeated");
+
+  sluice::ExplainOptions explain;
+  CLI::App* explain_command = app.add_subcommand("explain", "every key: meaning, unit, range, default");
+  explain_command->add_option("key", explain.key, "one key, such as water.spacing");
+  explain_command->add_flag("--schema", explain.schema, "print the JSON Schema for editors");
+
+  sluice::ReportOptions report;
+  CLI::App* report_command = app.add_subcommand("report", "page of one run; comparison of several");
+  report_command->add_option("runs", report.runs, "run folders")->required();
+  report_command->add_option("--out", report.out, "comparison page [comparison.html]");
+
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& e) {
+    return app.exit(e);
+  } catch (const CLI::ParseError& e) {
+    app.exit(e);
+    return 2;
+  }
+
+  return guarded([&] {
+    if (run_command->parsed()) return sluice::run_process(run);
+    if (check_command->parsed()) return sluice::check_process(check);
+    if (explain_command->parsed()) return sluice::explain_keys(explain);
+    return sluice::report_runs(report);
+  });
+}
