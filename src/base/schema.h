@@ -16,6 +16,7 @@
 /// its default. Keys that belong to one kind of thing are declared always, with
 /// `.applies = kind == Kind::pipe, .applies_to = "kind: pipe"`: given elsewhere they are an error.
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <initializer_list>
@@ -91,21 +92,25 @@ class Schema {
   /// A list of mappings.
   template <class T>
   void list(const char* key, std::vector<T>& value, KeySpec spec) {
-    many(key, false, spec, [&](Schema& s, const std::string&) {
+    std::vector<T> all;
+    const bool there = many(key, false, spec, [&](Schema& s, const std::string&) {
       T read{};
       read.keys(s);
-      value.push_back(std::move(read));
+      all.push_back(std::move(read));
     });
+    if (there) value = std::move(all);
   }
   /// A mapping from names to mappings, in file order; T has a `name`.
   template <class T>
   void named(const char* key, std::vector<T>& value, KeySpec spec) {
-    many(key, true, spec, [&](Schema& s, const std::string& name) {
+    std::vector<T> all;
+    const bool there = many(key, true, spec, [&](Schema& s, const std::string& name) {
       T read{};
       read.name = name;
       read.keys(s);
-      value.push_back(std::move(read));
+      all.push_back(std::move(read));
     });
+    if (there) value = std::move(all);
   }
 
   /// Where the mapping being read stands, or one of its keys (for checks that compare keys).
@@ -123,7 +128,8 @@ class Schema {
                       KeySpec spec) = 0;
   /// Returns true if the section was there.
   virtual bool one_section(const char* key, KeySpec spec, const Visit& visit) = 0;
-  virtual void many(const char* key, bool by_name, KeySpec spec, const VisitNamed& visit) = 0;
+  /// Returns true if the list was there.
+  virtual bool many(const char* key, bool by_name, KeySpec spec, const VisitNamed& visit) = 0;
 };
 
 }  // namespace sluice
