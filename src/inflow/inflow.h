@@ -2,17 +2,33 @@
 /// Where rock and water come from. Every inflow is exact in mass: what entered is rate x time less what
 /// waits, to rounding; what waits is carried over, never dropped.
 
+#include <cstdint>
 #include <string>
 
+#include "base/domain.h"
 #include "base/state_archive.h"
 
 namespace sluice {
 
+class DemSystem;
+class FluidSystem;
+
 /// Mass of one phase through one inflow since the start [kg].
 struct InflowBudget {
-  double requested = 0;  ///< rate x time
-  double entered = 0;    ///< as stored by the system that took it, summed in double
-  double waiting = 0;    ///< not yet placed: requested - entered
+  double requested = 0;          ///< rate x time
+  double entered = 0;            ///< as stored by the system that took it, summed in double
+  double waiting = 0;            ///< not yet placed: requested - entered
+  Vec3 momentum = Vec3::Zero();  ///< that came with what entered [N s]
+};
+
+/// What an inflow feeds, and where its random numbers come from.
+struct InflowTarget {
+  DemSystem* rocks = nullptr;    ///< null where the scene has no rocks
+  FluidSystem* water = nullptr;  ///< null where the scene has no water
+  Domain domain;
+  Vec3 gravity = Vec3(0, 0, -9.81);  ///< [m/s2]
+  std::uint64_t seed = 0;            ///< of the run
+  int index = 0;  ///< of this emitter in the process: its random stream, its rocks' `source`
 };
 
 class Inflow {
