@@ -30,22 +30,30 @@ struct PairMemory {
 };
 
 enum class PairOutcome {
-  separated,   ///< a rigorous separating plane was found; geometry not computed
-  converged,   ///< geometry holds; residuals below tolerance
+  separated,   ///< a rigorous separating plane was found; geometry may not be computed
+  converged,   ///< they overlap; geometry holds, residuals below tolerance
   fallback,    ///< the same, after the fallback
   unresolved,  ///< never expected; geometry is the best found
 };
 
-/// @param geometry  written unless separated
+/// Contact of two bodies that may touch.
+/// @param geometry  written unless separated; a gap that was computed is written, too (overlap < 0)
 PairOutcome superquadric_pair(const Superquadric& a, const Superquadric& b, PairMemory& memory,
                               ContactGeometry& geometry);
+
+/// The same for bodies near or apart, to rounding and without a separation test: geometry is always
+/// written. Never returns `separated`.
+PairOutcome superquadric_gap(const Superquadric& a, const Superquadric& b, PairMemory& memory,
+                             ContactGeometry& geometry);
 
 /// Contact of a superquadric with the half-space below a plane through `on_plane` with unit normal `n`
 /// (pointing to the body's side); closed form. `normal` of the result = -n (from body to wall).
 ContactGeometry superquadric_plane(const Superquadric& body, const Vec3& on_plane, const Vec3& n);
 
 /// Contact with an edge (segment a-b) and with a vertex. `start` is in and out: the surface point in the body
-/// frame, zero when cold. Returns false if they do not touch (gap >= 0).
+/// frame, zero when cold. `normal` points from the body to the edge or vertex, `point` lies midway between
+/// the two. Returns false if they do not touch (gap >= 0), or if the line's contact is beyond the segment's
+/// ends (its vertices then decide).
 bool superquadric_segment(const Superquadric& body, const Vec3& a, const Vec3& b, Vec3& start,
                           ContactGeometry& geometry);
 bool superquadric_point(const Superquadric& body, const Vec3& p, Vec3& start, ContactGeometry& geometry);
