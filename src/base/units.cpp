@@ -121,23 +121,18 @@ constexpr std::array dimension_words{
     DimensionWords{"W", "a power", "W or kW"},
 };
 
-DimensionWords words_for(std::string_view unit) {
+UnitWords words_for(std::string_view unit) {
   const Unit wanted = unit_table().parse(unit);
   for (const DimensionWords& words : dimension_words)
-    if (dimension_of(unit_table().parse(words.unit).get()) == dimension_of(wanted.get())) return words;
-  return {nullptr, nullptr, nullptr};
+    if (dimension_of(unit_table().parse(words.unit).get()) == dimension_of(wanted.get()))
+      return {words.noun, words.units};
+  return {fmt::format("a value in {}", unit), std::string(unit)};
 }
 
 Quantity wrong(std::string problem, std::string_view unit) {
-  const DimensionWords words = words_for(unit);
-  Quantity q;
-  q.problem = std::move(problem);
-  q.reason = fmt::format("{} is needed", words.noun ? words.noun : fmt::format("a value in {}", unit));
-  if (words.unit && *words.unit == '\0')
-    q.suggestion = "leave the unit out";
-  else
-    q.suggestion = fmt::format("use {}", words.units ? std::string(words.units) : std::string(unit));
-  return q;
+  const UnitWords words = words_for(unit);
+  return {std::nullopt, std::move(problem), words.noun + " is needed",
+          unit.empty() ? "leave the unit out" : "use " + words.examples};
 }
 
 std::string_view trimmed(std::string_view s) {
@@ -209,13 +204,8 @@ Quantity not_a_number(std::string_view text, std::string_view unit) {
       if (!rest.empty() && is_letter(rest[0])) break;
       return {std::nullopt, fmt::format("is '{}'", text), "a finite number is needed", "write a number"};
     }
-  const DimensionWords words = words_for(unit);
-  Quantity q;
-  q.problem = fmt::format("is '{}'", text);
-  q.reason = fmt::format("{} is needed", words.noun ? words.noun : "a number");
-  q.suggestion =
-      unit.empty() ? "write a number" : fmt::format("write a number and its unit, as in '1 {}'", unit);
-  return q;
+  return {std::nullopt, fmt::format("is '{}'", text), words_for(unit).noun + " is needed",
+          unit.empty() ? "write a number" : fmt::format("write a number and its unit, as in '1 {}'", unit)};
 }
 
 }  // namespace
@@ -269,6 +259,11 @@ Quantity read_quantity(std::string_view text, std::string_view unit) {
     return {std::nullopt, fmt::format("is '{}'", text), "a finite number is needed",
             "write a smaller number"};
   return {value, "", "", ""};
+}
+
+UnitWords describe_unit(std::string_view unit) {
+  const std::lock_guard lock(parser_mutex());
+  return words_for(unit);
 }
 
 }  // namespace sluice

@@ -20,6 +20,14 @@ struct Quantity {
 /// needed, an unknown unit, another dimension, nan and inf are problems. `t` is the tonne.
 Quantity read_quantity(std::string_view text, std::string_view unit);
 
+/// What a unit measures, in words: "a length", "m, mm or in". A unit without a name of its own: "a value
+/// in kg m2", "kg m2".
+struct UnitWords {
+  std::string noun;
+  std::string examples;
+};
+UnitWords describe_unit(std::string_view unit);
+
 /// A value for people: 0.025, "m" -> "25 mm".
 std::string for_people(double value, std::string_view unit);
 
