@@ -12,6 +12,15 @@
 ///                  with the segment against the patch's triangles
 ///
 /// Cells without a record take the plain kernel.
+///
+/// Ties. A point exactly on a plane is on the side of the patch's normal. Nodes are seen at
+/// (i, j, k) + node_offset, so that none lies exactly on a wall that follows the grid: such a node belongs
+/// to the wall's upper side and is hidden from the lower one; never does it mix the two. Points should be
+/// kept off the walls by more than the noise of the CAD (1e-4 h by the path check).
+///
+/// Periodic axes. Positions and nodes are not wrapped here: a point lies in [lo, hi), its stencil and its
+/// path may reach a few cells beyond a periodic face, and find there the images of the walls. A path that
+/// began inside is tested with its unwrapped end.
 
 #include <array>
 #include <cstdint>
@@ -23,6 +32,10 @@
 #include "geometry/wall.h"
 
 namespace sluice {
+
+/// Where nodes count as being, from where they are [h]. Three unlike numbers, so that no simple plane holds
+/// the offset; more than the noise of single-precision CAD, far below what the transfer resolves.
+inline const Vec3 node_offset{1.00e-3, 0.83e-3, 0.61e-3};
 
 /// A plane that acts on a node or a point. `normal` points towards the wall (out of the fluid).
 struct WallPlane {
@@ -52,26 +65,33 @@ class WallField {
   WallField(const Walls& walls, const Domain& domain, const Vec3& origin, double h);
   ~WallField();
 
-  /// Record of the stencil whose lowest node is `base`, or -1 where no wall is within reach.
+  /// Record of the stencil whose lowest node is `base` (floor((x - origin) / h - 1/2) for a point x), or -1
+  /// where no wall is within reach: none within 1.5 h of any point of that cell.
   int stencil(const Vec3i& base) const;
   /// Hidden nodes for a point x [m] whose stencil starts at `base`.
   void visibility(int stencil, const Vec3i& base, const Vec3& x, Visibility& out) const;
-  /// Patches within 1.5 h of the point and visible from it, nearest first; at most `max` are written.
+  /// Planes within 1.5 h of the point whose foot is visible from it and lies inside the patch, or where a
+  /// smooth surface (bending by less than 41 degrees) goes on beyond its edge: free lips do not count.
+  /// Nearest first; facets whose normals' dot product with a nearer one exceeds 0.75 are merged into that
+  /// one. At most `max` are written; returns how many.
   int planes_of_point(int stencil, const Vec3& x, WallPlane* out, int max) const;
 
-  /// Active planes of a node: distance < 1.5 h, foot visible, greedy by distance, merged where their
-  /// normals' dot product exceeds 0.75. Empty for nodes without walls near.
+  /// Active planes of a node: as planes_of_point. Empty for nodes without walls near.
   std::span<const WallPlane> planes_of_node(const Vec3i& node) const;
   /// Fraction of the node's quadratic B-spline support (weighted) that is on the node's side of the walls
   /// near it, 1 far from walls; never below 0.02. Weighted by the spline, so that full water reads fill = 1.
   double open_fraction(const Vec3i& node) const;
 
-  /// First wall met on the way from a to b (double precision, watertight over shared edges).
+  /// First wall met on the way from a to b (double precision, watertight over shared edges). `stencil` is
+  /// that of a, or -1; paths that leave its surroundings are followed through the cells they cross. Walls
+  /// more than 3 cells outside the domain are not met.
+  /// @pre a and b are finite
   std::optional<WallHit> first_hit(int stencil, const Vec3& a, const Vec3& b) const;
 
   const Vec3& patch_normal(int patch) const;
   int patch_wall(int patch) const;
   int patch_count() const;
+  /// Velocity of a wall's surface [m/s], as Walls::surface_velocity.
   Vec3 surface_velocity(int wall, const Vec3& at) const;
   std::size_t memory_bytes() const;
 

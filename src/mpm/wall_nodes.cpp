@@ -1,0 +1,152 @@
+#include "mpm/wall_nodes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "geometry/surface_query.h"
+
+namespace sluice {
+namespace {
+
+constexpr double least_open_fraction = 0.02;
+constexpr int sample_groups = 32;  // 1024 samples: a plane's fraction within 0.01
+
+struct Candidate {
+  double distance = 0;  ///< to the foot
+  const StencilPatch* patch = nullptr;
+  bool operator<(const Candidate& o) const {
+    return distance != o.distance ? distance < o.distance : patch->patch < o.patch->patch;
+  }
+};
+
+Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
+  const Vec3 ab = b - a;
+  const double length2 = ab.squaredNorm();
+  return a + (length2 > 0 ? std::clamp((x - a).dot(ab) / length2, 0.0, 1.0) : 0.0) * ab;
+}
+
+/// The patch's point closest to x, if it is an inner point or one where the surface goes on smoothly.
+std::optional<Vec3> foot_on(const Sight& sight, const StencilPatch& p, const Vec3& x, double height) {
+  const Vec3 q = x - height * sight.plane(p).normal;
+  if (p.covers_near || sight.inside(p, q, sight.walls.tolerance)) return q;
+  double nearest_smooth = std::numeric_limits<double>::infinity(), nearest_free = nearest_smooth;
+  Vec3 foot = q;
+  for (std::int32_t index : sight.stencils.triangles_of(p)) {
+    const WallTriangle& t = sight.walls.triangles[static_cast<std::size_t>(index)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(t.boundary >> k & 1)) continue;
+      const Vec3 c = closest_on_segment(x, t.corner[k], t.corner[(k + 1) % 3]);
+      const double d = (c - x).norm();
+      if (!(t.smooth >> k & 1)) {
+        nearest_free = std::min(nearest_free, d);
+      } else if (d < nearest_smooth) {
+        nearest_smooth = d;
+        foot = c;
+      }
+    }
+  }
+  // A corner where a smooth edge meets a lip is the lip's
+  if (nearest_smooth >= plane_reach || nearest_free <= nearest_smooth + 1e-6) return std::nullopt;
+  // Beyond the edge, between the facet's plane and the facet that goes on, is not in front of it
+  if (std::abs(height) < smooth_cosine * nearest_smooth) return std::nullopt;
+  return foot;
+}
+
+/// Abscissa below which the fraction f of a quadratic B-spline lies, by bisection.
+double spline_quantile(double f) {
+  auto below = [](double x) {
+    const double r = 1.5 - std::abs(x);
+    const double tail = r * r * r / 6;  // of |x| > 1/2
+    const double a = std::abs(x);
+    const double beyond = a >= 0.5 ? tail : 0.5 - (0.75 * a - a * a * a / 3);
+    return x < 0 ? beyond : 1 - beyond;
+  };
+  double lo = -1.5, hi = 1.5;
+  for (int i = 0; i < 60; ++i) {
+    const double middle = 0.5 * (lo + hi);
+    (below(middle) < f ? lo : hi) = middle;
+  }
+  return 0.5 * (lo + hi);
+}
+
+/// Places about a node that each stand for the same share of its spline: an additive lattice (Roberts 2018,
+/// R3 sequence: powers of the root of g^4 = g + 1) sent through the spline's quantiles.
+const std::array<Targets, sample_groups>& spline_samples() {
+  static const auto samples = [] {
+    constexpr std::array<double, 3> step{0.8191725133961645, 0.6710436067037893, 0.5497004779019703};
+    std::array<Targets, sample_groups> s{};
+    for (int i = 0; i < sample_groups * Targets::count; ++i) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double r = 0.5 + step[k] * (i + 1);
+        s[static_cast<std::size_t>(i / Targets::count)].x[k][i % Targets::count] =
+            spline_quantile(r - std::floor(r));
+      }
+    }
+    return s;
+  }();
+  return samples;
+}
+
+}  // namespace
+
+int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x, const Vec3& seen_at,
+                  WallPlane* out, int max) {
+  // The nearest few; more than this only over facets far smaller than a cell, which merge anyway
+  std::array<Candidate, 48> found;
+  std::size_t count = 0;
+  for (const StencilPatch& p : sight.stencils.patches_of(record)) {
+    const double height = height_over(sight.plane(p), seen_at);
+    if (!(std::abs(height) < plane_reach)) continue;
+    const std::optional<Vec3> foot = foot_on(sight, p, seen_at, height);
+    if (!foot) continue;
+    const Candidate c{(*foot - seen_at).norm(), &p};
+    if (c.distance >= plane_reach || (count == found.size() && !(c < found.back()))) continue;
+    if (record.near > 1 && !sight.sees(record, seen_at, *foot + 1e-3 * (seen_at - *foot), p.patch)) continue;
+    if (count < found.size()) ++count;
+    std::size_t i = count - 1;
+    for (; i > 0 && c < found[i - 1]; --i) found[i] = found[i - 1];
+    found[i] = c;
+  }
+
+  int written = 0;
+  for (std::size_t i = 0; i < count && written < max; ++i) {
+    const WallPatch& plane = sight.plane(*found[i].patch);
+    const bool above = is_above(height_over(plane, seen_at));
+    const Vec3 normal = above ? Vec3(-plane.normal) : plane.normal;
+    const bool merged = std::any_of(out, out + written, [&](const WallPlane& earlier) {
+      return earlier.normal.dot(normal) > smooth_cosine;
+    });
+    if (merged) continue;
+    const double height = height_over(plane, x);
+    out[written++] = {normal, std::max(0.0, above ? height : -height), plane.wall, found[i].patch->patch};
+  }
+  return written;
+}
+
+double open_fraction_of(const Sight& sight, const StencilRecord& record) {
+  const Vec3 node = (record.base.cast<double>().array() + 1).matrix();
+  const Vec3 eye = node + node_offset;
+  const auto patches = sight.stencils.patches_of(record);
+  int open = 0;
+  for (const Targets& sample : spline_samples()) {
+    Targets targets;
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < Targets::count; ++j) targets.x[k][j] = node[k] + sample.x[k][j];
+    std::uint32_t hidden = 0;
+    for (const StencilPatch& p : patches) {
+      const std::uint32_t beyond = targets_beyond(sight.plane(p), eye, targets) & ~hidden;
+      if (!beyond) continue;
+      StencilPatch whole = p;  // samples reach 1.5 h, beyond the cut box
+      whole.covers_cut = p.covers_near;
+      whole.in_cut_box = p.in_near_box;
+      alignas(64) double s[Targets::count];
+      hidden |= hidden_targets(sight, whole, eye, targets, beyond, s);
+    }
+    open += Targets::count - std::popcount(hidden);
+  }
+  return std::max(least_open_fraction, open / static_cast<double>(sample_groups * Targets::count));
+}
+
+}  // namespace sluice

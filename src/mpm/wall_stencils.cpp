@@ -1,0 +1,205 @@
+#include "mpm/wall_stencils.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/parallel.h"
+
+namespace sluice {
+namespace {
+
+constexpr double box_slack = 2e-3;  // boxes are grown by more than the node offset
+
+/// Triangle against a cube, by separating axes (Akenine-Moeller 2001). Touching counts.
+bool meets_cube(const WallTriangle& t, const Vec3& centre, double half) {
+  const std::array<Vec3, 3> v{t.corner[0] - centre, t.corner[1] - centre, t.corner[2] - centre};
+  for (int k = 0; k < 3; ++k) {
+    if (std::min({v[0][k], v[1][k], v[2][k]}) > half || std::max({v[0][k], v[1][k], v[2][k]}) < -half)
+      return false;
+  }
+  auto apart = [&](const Vec3& axis) {
+    const double p0 = axis.dot(v[0]), p1 = axis.dot(v[1]), p2 = axis.dot(v[2]);
+    const double r = half * axis.cwiseAbs().sum();
+    return std::min({p0, p1, p2}) > r || std::max({p0, p1, p2}) < -r;
+  };
+  const std::array<Vec3, 3> side{v[1] - v[0], v[2] - v[1], v[0] - v[2]};
+  if (apart(side[0].cross(side[1]))) return false;
+  for (const Vec3& e : side)
+    if (apart({0, -e[2], e[1]}) || apart({e[2], 0, -e[0]}) || apart({-e[1], e[0], 0})) return false;
+  return true;
+}
+
+/// Segment against a cube, by slabs. Touching counts.
+bool segment_meets_cube(const Vec3& a, const Vec3& b, const Vec3& centre, double half) {
+  double from = 0, to = 1;
+  for (int k = 0; k < 3; ++k) {
+    const double start = a[k] - centre[k], step = b[k] - a[k];
+    if (std::abs(step) < 1e-12) {
+      if (std::abs(start) > half) return false;
+      continue;
+    }
+    const double t0 = (-half - start) / step, t1 = (half - start) / step;
+    from = std::max(from, std::min(t0, t1));
+    to = std::min(to, std::max(t0, t1));
+  }
+  return from <= to + 1e-9;
+}
+
+bool boundary_meets_cube(const WallTriangle& t, const Vec3& centre, double half) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if ((t.boundary >> k & 1) && segment_meets_cube(t.corner[k], t.corner[(k + 1) % 3], centre, half))
+      return true;
+  return false;
+}
+
+/// Calls visit(base) for each base from lo to hi whose near box meets the triangle.
+template <class Visit>
+void near_bases(const WallTriangle& t, const WallPatch& patch, const Vec3i& lo, const Vec3i& hi,
+                const Visit& visit) {
+  constexpr double half = 2 + box_slack;
+  Vec3i from, to;
+  for (int k = 0; k < 3; ++k) {
+    const auto [least, most] = std::minmax({t.corner[0][k], t.corner[1][k], t.corner[2][k]});
+    from[k] = static_cast<int>(std::max<double>(lo[k], std::ceil(least - half - 1)));
+    to[k] = static_cast<int>(std::min<double>(hi[k], std::floor(most + half - 1)));
+    if (from[k] > to[k]) return;
+  }
+  // Columns along the axis nearest to the normal; the plane limits each column
+  const int u = patch.u, v = patch.v, w = 3 - u - v;
+  const Vec3& n = patch.normal;
+  const double spread = (std::abs(n[u]) + std::abs(n[v]) + std::abs(n[w])) * half / std::abs(n[w]);
+  Vec3i base;
+  for (base[u] = from[u]; base[u] <= to[u]; ++base[u]) {
+    for (base[v] = from[v]; base[v] <= to[v]; ++base[v]) {
+      const double middle = (patch.offset - n[u] * (base[u] + 1) - n[v] * (base[v] + 1)) / n[w] - 1;
+      const int first = std::max(from[w], static_cast<int>(std::floor(middle - spread)));
+      const int last = std::min(to[w], static_cast<int>(std::ceil(middle + spread)));
+      for (base[w] = first; base[w] <= last; ++base[w])
+        if (meets_cube(t, (base.cast<double>().array() + 1).matrix(), half)) visit(base);
+    }
+  }
+}
+
+}  // namespace
+
+WallStencils::WallStencils(const WallPatches& walls, const Vec3i& lo, const Vec3i& hi) : lo_(lo) {
+  if (walls.triangles.empty() || (lo.array() > hi.array()).any()) return;
+  for (int k = 0; k < 3; ++k)
+    blocks_[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>((hi[k] - lo[k]) / 4 + 1);
+  block_.assign(static_cast<std::size_t>(blocks_[0]) * blocks_[1] * blocks_[2], -1);
+
+  // Pairs of record and triangle, triangles ascending
+  std::vector<std::int32_t> record_of_pair, triangle_of_pair;
+  for (std::size_t t = 0; t < walls.triangles.size(); ++t) {
+    const WallTriangle& triangle = walls.triangles[t];
+    near_bases(triangle, walls.patches[static_cast<std::size_t>(triangle.patch)], lo, hi,
+               [&](const Vec3i& base) {
+                 record_of_pair.push_back(find_or_add(base));
+                 triangle_of_pair.push_back(static_cast<std::int32_t>(t));
+               });
+  }
+  order_records(record_of_pair);
+
+  // Triangles by record
+  std::vector<std::int32_t> start(records.size() + 1, 0);
+  for (std::int32_t r : record_of_pair) ++start[static_cast<std::size_t>(r) + 1];
+  for (std::size_t r = 0; r < records.size(); ++r) start[r + 1] += start[r];
+  triangles.resize(triangle_of_pair.size());
+  std::vector<std::int32_t> next(start.begin(), start.end() - 1);
+  for (std::size_t i = 0; i < record_of_pair.size(); ++i)
+    triangles[static_cast<std::size_t>(next[static_cast<std::size_t>(record_of_pair[i])]++)] =
+        triangle_of_pair[i];
+
+  // Patches by record
+  for (std::size_t r = 0; r < records.size(); ++r) {
+    records[r].patches = static_cast<std::int32_t>(patches.size());
+    int last = -1;
+    for (std::int32_t i = start[r]; i < start[r + 1]; ++i) {
+      const int patch =
+          walls.triangles[static_cast<std::size_t>(triangles[static_cast<std::size_t>(i)])].patch;
+      if (patch != last) {
+        patches.push_back({.patch = patch, .triangles = i});
+        ++records[r].near;
+        last = patch;
+      }
+      ++patches.back().in_near_box;
+    }
+  }
+  parallel_for(records.size(), [&](std::size_t r) { classify(walls, r); });
+}
+
+int WallStencils::find_or_add(const Vec3i& base) {
+  const Vec3i d = base - lo_;
+  const std::size_t b =
+      (static_cast<std::size_t>(d[0] >> 2) * blocks_[1] + static_cast<std::size_t>(d[1] >> 2)) * blocks_[2] +
+      static_cast<std::size_t>(d[2] >> 2);
+  if (block_[b] < 0) {
+    block_[b] = static_cast<std::int32_t>(cell_.size());
+    cell_.resize(cell_.size() + 64, -1);
+  }
+  std::int32_t& cell =
+      cell_[static_cast<std::size_t>(block_[b] + ((d[0] & 3) << 4 | (d[1] & 3) << 2 | (d[2] & 3)))];
+  if (cell < 0) {
+    cell = static_cast<std::int32_t>(records.size());
+    records.push_back({.base = base});
+  }
+  return cell;
+}
+
+/// Puts records in the order of blocks, so that neighbours in space are neighbours in memory.
+void WallStencils::order_records(std::vector<std::int32_t>& record_of_pair) {
+  std::vector<StencilRecord> ordered;
+  ordered.reserve(records.size());
+  std::vector<std::int32_t> now(records.size());
+  for (std::int32_t block : block_) {
+    if (block < 0) continue;
+    for (std::size_t c = static_cast<std::size_t>(block); c < static_cast<std::size_t>(block) + 64; ++c) {
+      if (cell_[c] < 0) continue;
+      const auto old = static_cast<std::size_t>(cell_[c]);
+      now[old] = cell_[c] = static_cast<std::int32_t>(ordered.size());
+      ordered.push_back(records[old]);
+    }
+  }
+  records = std::move(ordered);
+  for (std::int32_t& r : record_of_pair) r = now[static_cast<std::size_t>(r)];
+}
+
+void WallStencils::classify(const WallPatches& walls, std::size_t record) {
+  StencilRecord& r = records[record];
+  const Vec3 centre = (r.base.cast<double>().array() + 1).matrix();
+  constexpr double near_half = 2 + box_slack, cut_half = 1 + box_slack;
+  auto triangle = [&](std::int32_t t) -> const WallTriangle& {
+    return walls.triangles[static_cast<std::size_t>(t)];
+  };
+  const auto first = patches.begin() + r.patches, last = first + r.near;
+  for (auto p = first; p != last; ++p) {
+    const WallPatch& plane = walls.patches[static_cast<std::size_t>(p->patch)];
+    for (int node = 0; node < 27; ++node) {
+      const Vec3 x = (r.base + Vec3i(node % 3, node / 3 % 3, node / 9)).cast<double>() + node_offset;
+      if (plane.normal.dot(x) - plane.offset >= 0) p->above |= 1u << node;
+    }
+    const auto begin = triangles.begin() + p->triangles, end = begin + p->in_near_box;
+    const auto split = std::stable_partition(
+        begin, end, [&](std::int32_t t) { return meets_cube(triangle(t), centre, cut_half); });
+    p->in_cut_box = static_cast<std::int32_t>(split - begin);
+    p->cuts = p->in_cut_box > 0 && p->above != 0 && p->above != all_nodes;
+    p->covers_cut = p->cuts && std::none_of(begin, split, [&](std::int32_t t) {
+                      return boundary_meets_cube(triangle(t), centre, cut_half);
+                    });
+    p->covers_near = std::none_of(
+        begin, end, [&](std::int32_t t) { return boundary_meets_cube(triangle(t), centre, near_half); });
+  }
+  std::stable_sort(first, last, [](const StencilPatch& a, const StencilPatch& b) {
+    return 2 * a.cuts + a.covers_cut > 2 * b.cuts + b.covers_cut;
+  });
+  r.cutting = static_cast<std::int32_t>(
+      std::count_if(first, last, [](const StencilPatch& p) { return p.cuts != 0; }));
+}
+
+std::size_t WallStencils::memory_bytes() const {
+  return records.capacity() * sizeof(StencilRecord) + patches.capacity() * sizeof(StencilPatch) +
+         (triangles.capacity() + block_.capacity() + cell_.capacity()) * sizeof(std::int32_t);
+}
+
+}  // namespace sluice
