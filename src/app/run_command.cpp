@@ -1,0 +1,210 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <fstream>
+
+#include "app/commands.h"
+#include "app/process_source.h"
+#include "app/progress.h"
+#include "app/recorder.h"
+#include "app/summary.h"
+#include "base/parallel.h"
+#include "base/units.h"
+#include "output/view.h"
+#include "processes/build_parts.h"
+#include "reports/run_page.h"
+
+namespace sluice {
+
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+void on_signal(int) {
+  interrupted = 1;
+}
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+double end_time(const RunOptions& options, const ProcessConfig& config) {
+  if (options.until.empty()) return config.duration;
+  const Quantity until = read_quantity(options.until, "s");
+  if (!until.value || !(*until.value > 0))
+    throw InputError(InputProblem{{"--until", 0, 0},
+                                  "until",
+                                  until.value ? "is not positive" : until.problem,
+                                  until.reason,
+                                  until.suggestion.empty() ? "write --until '2 s'" : until.suggestion});
+  return *until.value;
+}
+
+/// Rock that left by the stop's exit over its averaging time, over what the feeds ask for.
+class EarlyStop {
+ public:
+  EarlyStop(const ProcessConfig& config, double rock_rate) : config_(config.stop), rock_rate_(rock_rate) {}
+  bool reached(const Simulation& simulation) const {
+    if (!config_ || simulation.time() < config_->over) return false;
+    for (const ExitTally& tally : simulation.parts().exits->tallies()) {
+      if (tally.config().name != config_->exit) continue;
+      const auto slots = static_cast<std::size_t>(std::lround(config_->over / tally.interval()));
+      // Whole slots only: the one in progress would read low.
+      const auto whole = static_cast<std::size_t>(simulation.time() / tally.interval() + 1e-9);
+      if (slots == 0 || whole < slots) return false;
+      double kg = 0;
+      for (std::size_t slot = whole - slots; slot < std::min(whole, tally.slots()); ++slot)
+        for (std::size_t bin = 0; bin < tally.bin_count(); ++bin) kg += tally.at(slot, bin).rock_kg;
+      return kg / (static_cast<double>(slots) * tally.interval()) >= config_->rock_rate * rock_rate_;
+    }
+    return false;
+  }
+
+ private:
+  std::optional<StopConfig> config_;
+  double rock_rate_;
+};
+
+class Run {
+ public:
+  explicit Run(const RunOptions& options);
+  int go();
+
+ private:
+  void exchange(StateArchive& archive);
+  void save();
+  void keep_in_memory();
+  int finish(Outcome outcome, const std::optional<RunManifest::Failure>& failure);
+
+  RunOptions options_;
+  ProcessSource source_;
+  ProcessConfig config_;
+  RunFolder folder_;
+  BuiltProcess built_;
+  std::unique_ptr<Simulation> simulation_;
+  std::unique_ptr<Recorder> recorder_;
+  std::vector<std::string> warnings_;
+  MemoryArchive last_good_;
+  double wall_before_ = 0;  ///< seconds spent before this resume
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Run::Run(const RunOptions& options) : options_(options) {
+  if (options.threads > 0) set_thread_count(options.threads);
+  source_ = read_process_source(options.process, options.overrides);
+  config_ = source_.config;
+  built_ = build_parts(config_);
+  warnings_ = built_.warnings;
+  const std::filesystem::path out =
+      options.out.empty() ? std::filesystem::path("out") / options.process.stem() : options.out;
+  folder_ = open_run_folder(out, options.resume ? FolderUse::resume : FolderUse::fresh);
+  simulation_ = std::make_unique<Simulation>(std::move(built_.parts));
+  std::optional<double> resume_time;
+  if (options.resume) {
+    // The state is restored before the recorder opens its files at the right place.
+    MemoryArchive unused;
+    const auto found = find_checkpoint(folder_);
+    if (!found)
+      throw EnvironmentError(fmt::format("{}: there is no checkpoint to resume from", folder_.root.string()));
+    resume_time = found->stamp.time;
+    recorder_ = std::make_unique<Recorder>(config_, folder_, *simulation_, resume_time);
+    const RestoredCheckpoint restored =
+        load_checkpoint(folder_, source_.sha256, [&](StateArchive& a) { exchange(a); });
+    warnings_.insert(warnings_.end(), restored.notes.begin(), restored.notes.end());
+  } else {
+    recorder_ = std::make_unique<Recorder>(config_, folder_, *simulation_, resume_time);
+  }
+}
+
+void Run::exchange(StateArchive& a) {
+  simulation_->exchange(a);
+  a.enter("recorder");
+  recorder_->exchange(a);
+  a.leave();
+  double wall = wall_before_ + seconds_since(start_);
+  a.value("wall_seconds", wall);
+  if (a.loading()) wall_before_ = wall;
+}
+
+void Run::save() {
+  save_checkpoint(folder_, {source_.sha256, program_name(), simulation_->time()},
+                  [&](StateArchive& a) { exchange(a); });
+}
+
+void Run::keep_in_memory() {
+  last_good_.clear();
+  exchange(last_good_);
+}
+
+int Run::finish(Outcome outcome, const std::optional<RunManifest::Failure>& failure) {
+  save();
+  recorder_->write_frame(*simulation_);
+  const double wall = wall_before_ + seconds_since(start_);
+  const Summary summary{source_, config_, *simulation_, built_.rock_rate, wall, warnings_};
+  write_summary(folder_, summary, outcome, failure);
+  const SceneView view = simulation_->view();
+  write_view(folder_.view(), make_view(take_snapshot(view.t, config_.gravity, view.rocks, view.water,
+                                                     *view.walls, view.wetted_fraction),
+                                       view_marks(config_)));
+  write_run_page(folder_.root);
+  fmt::print("page: {}\n", folder_.report().string());
+  return outcome == Outcome::completed ? 0 : outcome == Outcome::interrupted ? 130 : 3;
+}
+
+int Run::go() {
+  const double end = end_time(options_, config_);
+  const EarlyStop early(config_, built_.rock_rate);
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  print_header(config_, *simulation_, warnings_);
+  Progress progress(simulation_->time(), end);
+  keep_in_memory();
+  const double dt = simulation_->time_step().dt;
+  bool stopped_early = false;
+  try {
+    // Half a step of slack: the end is the step nearest to it, whatever the rounding.
+    while (simulation_->time() + 0.5 * dt < end && !interrupted) {
+      simulation_->step();
+      recorder_->after_step(*simulation_);
+      if (recorder_->checkpoint_due(*simulation_)) {
+        save();
+        keep_in_memory();
+        write_manifest(folder_.manifest(), make_manifest({source_, config_, *simulation_, built_.rock_rate,
+                                                          wall_before_ + seconds_since(start_), warnings_},
+                                                         Outcome::running, std::nullopt));
+        if (early.reached(*simulation_)) {
+          stopped_early = true;
+          break;
+        }
+      }
+      progress.update(progress_state(*simulation_));
+    }
+  } catch (const NumericalError& e) {
+    progress.finish();
+    fmt::print(stderr, "{}\n", e.what());
+    last_good_.rewind_to_load();
+    exchange(last_good_);
+    fmt::print(stderr, "last good state, t = {:.6g} s, saved in {}\n", simulation_->time(),
+               folder_.checkpoint().string());
+    return finish(Outcome::failed, RunManifest::Failure{e.stage(), e.time(), e.what()});
+  }
+  progress.finish();
+  if (interrupted) {
+    fmt::print(stderr, "interrupted at t = {:.6g} s; `--resume` goes on from here\n", simulation_->time());
+    return finish(Outcome::interrupted, std::nullopt);
+  }
+  if (stopped_early)
+    warnings_.push_back(
+        fmt::format("ended at {:.3g} s: rock leaves by '{}' at {:.0f} % of the feed rate or more",
+                    simulation_->time(), config_.stop->exit, 100 * config_.stop->rock_rate));
+  return finish(Outcome::completed, std::nullopt);
+}
+
+}  // namespace
+
+int run_process(const RunOptions& options) {
+  return Run(options).go();
+}
+
+}  // namespace sluice
