@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <numbers>
+#include <utility>
+#include <vector>
 
 #include "dem/rock_shape.h"
 #include "dem/superquadric_contact.h"
@@ -40,6 +42,7 @@ struct Touch {
 bool find_touch(const Vec3& axes, double m, const Line& line, Touch& touch) {
   const double least = axes.minCoeff();
   for (int iteration = 0; iteration < kIterations; ++iteration) {
+    const double guard = iteration < 10 ? 0.9 : 0.999;  // before the bound, as for pairs
     touch.x *= std::pow(superquadric_function(axes, m, touch.x), -1 / m);
     Vec3 g, h;
     for (int k = 0; k < 3; ++k) {
@@ -68,7 +71,7 @@ bool find_touch(const Vec3& axes, double m, const Line& line, Touch& touch) {
     if (has_direction) {
       // Solved through the second equation first: W (1 + s W)^-1 stays finite where 1 + s W is singular.
       bound = w11 / std::max(det, 1e-300);
-      const double se = std::max(s, -0.9 * bound);
+      const double se = std::max(s, -guard * bound);
       // Unknown dA from: row 2 of the first equation and the second equation.
       //   s w12 d1 + (1 + s w22) d2 = wt2;   along (w11 d1 + w12 d2) = -tilt
       const double m22 = 1 + se * w22;
@@ -80,7 +83,7 @@ bool find_touch(const Vec3& axes, double m, const Line& line, Touch& touch) {
     } else {
       const double half = 0.5 * (w11 + w22);
       bound = 1 / (half + std::sqrt(std::max(half * half - det, 0.0)));
-      const double se = std::max(s, -0.9 * bound);
+      const double se = std::max(s, -guard * bound);
       const double m11 = 1 + se * w11, m12 = se * w12, m22 = 1 + se * w22;
       const double determinant = m11 * m22 - m12 * m12;
       d1 = (m22 * wt1 - m12 * wt2) / determinant;
@@ -118,8 +121,45 @@ Touch facing_touch(const Vec3& axes, const Line& line) {
   return touch;
 }
 
+/// Newton from the support points of normals all around (across the line), the largest gap first.
+Touch from_other_normals(const Vec3& axes, double m, const Line& line) {
+  std::vector<std::pair<double, Vec3>> candidates;
+  const auto add = [&](const Vec3& n) {
+    candidates.emplace_back(n.dot(line.p) - support_height(axes, m, n), n);
+  };
+  if (line.slides) {
+    constexpr int kAround = 72;
+    const auto [e1, e2] = tangent_frame(line.u);
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kAround;
+      add(std::cos(angle) * e1 + std::sin(angle) * e2);
+    }
+  } else {
+    for (int i = -2; i <= 2; ++i)
+      for (int j = -2; j <= 2; ++j)
+        for (int k = -2; k <= 2; ++k)
+          if (i != 0 || j != 0 || k != 0) add(Vec3(i, j, k).normalized());
+  }
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const auto& one, const auto& other) { return one.first > other.first; });
+  for (const auto& [gap, n] : candidates) {
+    Touch touch;
+    touch.x = support_point(axes, m, n);
+    touch.t = line.slides ? line.u.dot(touch.x - line.p) : 0;
+    if (find_touch(axes, m, line, touch)) return touch;
+  }
+  // Never met in the tests; the best of the candidates is a contact of that normal, short of the optimum.
+  const auto& [gap, n] = candidates.front();
+  Touch best;
+  best.x = support_point(axes, m, n);
+  best.t = line.slides ? line.u.dot(best.x - line.p) : 0;
+  best.normal = n;
+  best.gap = gap;
+  return best;
+}
+
 /// Warm, cold, then by continuation in m from the ellipsoid.
-std::optional<Touch> resolve(const Vec3& axes, double m, const Line& line, const Vec3& start) {
+Touch resolve(const Vec3& axes, double m, const Line& line, const Vec3& start) {
   Touch touch = facing_touch(axes, line);
   const Touch cold = touch;
   if (start.squaredNorm() > 0) {
@@ -139,7 +179,7 @@ std::optional<Touch> resolve(const Vec3& axes, double m, const Line& line, const
     }
     if (found) return touch;
   }
-  return std::nullopt;
+  return from_other_normals(axes, m, line);
 }
 
 ContactGeometry in_space(const Superquadric& body, const Mat3& to_space, const Touch& touch,
@@ -167,11 +207,10 @@ bool superquadric_segment(const Superquadric& body, const Vec3& a, const Vec3& b
   // A line outside the ball about the body cannot touch it.
   const Vec3 foot = line.p - line.p.dot(line.u) * line.u;
   if (foot.squaredNorm() >= body.semi_axes.squaredNorm()) return false;
-  const std::optional<Touch> touch = resolve(body.semi_axes, body.m, line, start);
-  if (!touch) return false;
-  start = touch->x;
-  if (touch->gap >= 0 || touch->t < 0 || touch->t > length) return false;
-  geometry = in_space(body, to_space, *touch, line.p + touch->t * line.u);
+  const Touch touch = resolve(body.semi_axes, body.m, line, start);
+  start = touch.x;
+  if (touch.gap >= 0 || touch.t < 0 || touch.t > length) return false;
+  geometry = in_space(body, to_space, touch, line.p + touch.t * line.u);
   return true;
 }
 
@@ -180,10 +219,9 @@ bool superquadric_point(const Superquadric& body, const Vec3& p, Vec3& start, Co
   Line line;
   line.p = to_space.transpose() * (p - body.x);
   if (superquadric_function(body.semi_axes, body.m, line.p) >= 1) return false;
-  const std::optional<Touch> touch = resolve(body.semi_axes, body.m, line, start);
-  if (!touch) return false;
-  start = touch->x;
-  geometry = in_space(body, to_space, *touch, line.p);
+  const Touch touch = resolve(body.semi_axes, body.m, line, start);
+  start = touch.x;
+  geometry = in_space(body, to_space, touch, line.p);
   return true;
 }
 

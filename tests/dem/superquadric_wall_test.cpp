@@ -85,7 +85,7 @@ TEST(SuperquadricSegment, FindsTheLineUnderTheSurfaceColdAndWarm) {
       const auto [t1, t2] = tangent_frame(poke.n);
       const double turn = random.uniform(0, 6.28);
       const Vec3 u = std::cos(turn) * t1 + std::sin(turn) * t2;
-      const double before = random.uniform(0.05, 0.5), after = random.uniform(0.05, 0.5);
+      const double before = random.uniform(0.2, 0.5), after = random.uniform(0.2, 0.5);
       Vec3 start = Vec3::Zero();
       for (int step = 0; step < 3; ++step) {
         ContactGeometry geometry;
