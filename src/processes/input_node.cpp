@@ -17,11 +17,12 @@ InputEntry* InputNode::find(std::string_view key) {
 }
 
 std::string InputNode::describe() const {
+  constexpr std::size_t longest = 60;  // of a text that a message shows
   switch (kind) {
     case Kind::null:
       return "empty";
     case Kind::scalar:
-      return fmt::format("'{}'", scalar);
+      return fmt::format("'{}{}'", scalar.substr(0, longest), scalar.size() > longest ? " ..." : "");
     case Kind::list:
       return "a list";
     case Kind::mapping:

@@ -10,7 +10,7 @@ namespace {
 
 // Aliases can make a few lines stand for a billion nodes, or for themselves.
 constexpr int deepest = 64;
-constexpr std::size_t most_nodes = 1'000'000;
+constexpr std::size_t most_nodes = 100'000;
 
 class TreeBuilder {
  public:

@@ -60,7 +60,7 @@ ProcessDocument ProcessDocument::read(const fs::path& path, const std::vector<st
 
 InputNode ProcessDocument::load(const fs::path& path, const Location& named_at) {
   if (!named_at.file.empty()) {
-    if (!fs::exists(path))
+    if (!fs::is_regular_file(path))
       throw InputError({named_at, "extends", fmt::format("names '{}', which is not there", path.string()),
                         "the path is relative to this file", "check the path"});
     for (const fs::path& open : files_)

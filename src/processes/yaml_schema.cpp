@@ -40,11 +40,16 @@ void YamlSchema::problem(const char* key, std::string problem, std::string reaso
 }
 
 void YamlSchema::report_unknown() {
-  for (const InputEntry& entry : section_.value.mapping)
-    if (std::find(known_.begin(), known_.end(), entry.key) == known_.end())
+  for (const InputEntry& entry : section_.value.mapping) {
+    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    if (entry.key == "<<")
+      complain(entry.where, entry.key, "is not read", "merge keys are no part of YAML 1.2",
+               "write the keys out, or use 'extends' at the top of the file");
+    else
       complain(entry.where, entry.key, "is not a key",
                section_.key.empty() ? "of this file" : fmt::format("of '{}'", section_.key),
                suggest_word(entry.key, known_));
+  }
 }
 
 const InputEntry* YamlSchema::look_up(const char* key, const KeySpec& spec, const std::string& example) {
@@ -90,7 +95,11 @@ const InputNode* YamlSchema::items(const char* key, const KeySpec& spec, const s
   return nullptr;
 }
 
-bool YamlSchema::in_range(const char* key, const InputNode& node, double value, const KeySpec& spec) {
+bool YamlSchema::in_range(const char* key, const InputNode& node, double& value, const KeySpec& spec) {
+  // "90 deg" may come out a rounding above pi / 2: a value that close is the bound.
+  const auto is_bound = [&](double bound) { return std::abs(value - bound) <= 1e-14 * std::abs(bound); };
+  for (const double bound : {spec.at_least, spec.at_most, spec.above, spec.below})
+    if (std::isfinite(bound) && is_bound(bound)) value = bound;
   if (value >= spec.at_least && value > spec.above && value <= spec.at_most && value < spec.below)
     return true;
   complain(node.where, key, "is " + node.describe(), "out of range",
@@ -140,7 +149,7 @@ void YamlSchema::integer(const char* key, std::int64_t& value, KeySpec spec) {
     complain(node->where, key, "is " + node->describe(),
              "a number with a leading zero is octal to some readers and decimal to others",
              fmt::format("write '{}'", read));
-  } else if (in_range(key, *node, static_cast<double>(read), spec)) {
+  } else if (double as_number = static_cast<double>(read); in_range(key, *node, as_number, spec)) {
     value = read;
   }
 }

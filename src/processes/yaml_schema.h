@@ -54,7 +54,8 @@ class YamlSchema : public Schema {
                          const std::string& example);
   /// A quantity in range, or nothing after saying what is wrong.
   std::optional<double> quantity(const char* key, const InputNode& node, const KeySpec& spec);
-  bool in_range(const char* key, const InputNode& node, double value, const KeySpec& spec);
+  /// True if in range; a value within a rounding of a bound becomes the bound.
+  bool in_range(const char* key, const InputNode& node, double& value, const KeySpec& spec);
   bool read_vector(const char* key, Vec3& value, const KeySpec& spec);
   void visit_mapping(const InputEntry& entry, const Visit& visit);
   void complain(const Location& where, std::string key, std::string problem, std::string reason,

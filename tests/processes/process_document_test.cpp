@@ -36,6 +36,12 @@ TEST_F(ProcessDocumentTest, RefusesWhatIsNotOneSection) {
   EXPECT_NE(wrong("title: a\n? [x, y]\n: 3\n").find("a key is not a word"), std::string::npos);
 }
 
+TEST_F(ProcessDocumentTest, RefusesFilesOfAnotherKind) {
+  EXPECT_NE(wrong(std::string(300, 'x')).find("x ...' (a section with keys is needed)"), std::string::npos);
+  EXPECT_NE(wrong(std::string("\0\x01\xff\xfe garbage\0", 16)), "nothing");
+  EXPECT_NE(wrong("solid plate\n facet normal 0 0 1\n"), "nothing");
+}
+
 TEST_F(ProcessDocumentTest, StopsAtAliasesWithoutEnd) {
   EXPECT_NE(wrong("title: &a [*a]\n"), "nothing");
   std::string text = "l0: &l0 [x, x, x, x, x, x, x, x, x, x]\n";
@@ -46,6 +52,7 @@ TEST_F(ProcessDocumentTest, StopsAtAliasesWithoutEnd) {
     text += "]\n";
   }
   EXPECT_NE(wrong(text).find("nested too deeply or too large"), std::string::npos);
+  EXPECT_NE(wrong("title: " + std::string(100000, '[')), "nothing");
 }
 
 TEST_F(ProcessDocumentTest, SetChangesAValue) {

@@ -148,6 +148,33 @@ TEST_F(YamlSchemaTest, RefusesValuesOutOfRange) {
             "process.yaml:2:15: 'sizes' is '-1 mm' (out of range) use above 0 m");
 }
 
+struct Angles {
+  double up_to = 0, short_of = 0;  ///< [rad]
+  void keys(Schema& s) {
+    constexpr double right = 3.14159265358979324 / 2;
+    s.number("up_to", up_to, {.unit = "rad", .at_least = -right, .at_most = right});
+    s.number("short_of", short_of, {.unit = "rad", .below = right});
+  }
+};
+
+TEST_F(YamlSchemaTest, ABoundIsTheBoundInAnyUnit) {
+  for (const char* text : {"90 deg", "5400 arcmin", "1.5707963267948966 rad", "0.25 turn"}) {
+    ProcessDocument closed = ProcessDocument::read(write("a.yaml", std::string("up_to: ") + text + "\n"));
+    EXPECT_EQ(closed.as<Angles>().up_to, 3.14159265358979324 / 2) << text;
+    EXPECT_NO_THROW(closed.finish()) << text;
+    ProcessDocument open = ProcessDocument::read(write("b.yaml", std::string("short_of: ") + text + "\n"));
+    open.as<Angles>();
+    EXPECT_THROW(open.finish(), InputError) << text;
+  }
+}
+
+TEST_F(YamlSchemaTest, SaysThatMergeKeysAreNotRead) {
+  EXPECT_EQ(
+      wrong("title: a\noutput:\n  <<: {every: 1 s}\n"),
+      "process.yaml:3:3: '<<' is not read (merge keys are no part of YAML 1.2) write the keys out, or use "
+      "'extends' at the top of the file");
+}
+
 TEST_F(YamlSchemaTest, RefusesAKeyThatDoesNotApply) {
   EXPECT_EQ(wrong("title: a\nwater:\n  w: {kind: pipe, flow: 1 l/s, bore: 9 mm, angle: 3 deg}\n"),
             "process.yaml:3:44: 'angle' does not apply here (it belongs to kind: spray) leave it out");
