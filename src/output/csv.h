@@ -1,6 +1,7 @@
 #pragma once
-/// Comma-separated tables (RFC 4180): a header line with names and units ("rock_kg_s"), then rows.
-/// Numbers are written so that they read back to the same double; a missing one is an empty cell.
+/// Comma-separated tables (RFC 4180, lines end with a line feed alone): a header line with names and units
+/// ("rock_kg_s"), then rows. Numbers are written so that they read back to the same double; a missing one is
+/// an empty cell.
 
 #include <filesystem>
 #include <optional>
@@ -35,5 +36,7 @@ std::string csv_line(const std::vector<CsvCell>& cells);
 void write_csv(const std::filesystem::path& file, const CsvTable& table);
 /// A cell that reads as a number is one. @throws EnvironmentError not there; InputError a damaged table
 CsvTable read_csv(const std::filesystem::path& file);
+/// The same from text; `file` is only for messages.
+CsvTable parse_csv(std::string_view text, const std::filesystem::path& file);
 
 }  // namespace sluice

@@ -8,6 +8,7 @@
 ///   names as field data
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -28,20 +29,23 @@ class FrameWriter {
   void write_walls(const std::vector<Wall>& walls);
   /// The files of one moment, then the collections. @throws EnvironmentError
   void write(const Snapshot& snapshot);
-  std::size_t count() const { return frames_.size(); }
+  /// Frames there are, those of an earlier part of the run included.
+  std::size_t count() const;
 
  private:
-  struct Frame {
-    int number = 0;
-    double time = 0;                  ///< [s]
-    std::vector<std::string> series;  ///< "rocks", "water", ...
+  struct Entry {
+    double time = 0;   ///< [s]
+    std::string file;  ///< inside the folder
   };
-  void write_collections() const;
-  void read_index(std::optional<double> resume_time);
+  void add(const std::string& series, double time, const std::string& file);
+  void write_collection(const std::string& series) const;
+  void read_collections(double resume_time);
+  void clear_folder() const;
 
   std::filesystem::path folder_;
   RockSurface surface_;
-  std::vector<Frame> frames_;
+  std::map<std::string, std::vector<Entry>> collections_;  ///< by series: "rocks", "water", ...
+  int next_number_ = 0;
 };
 
 }  // namespace sluice

@@ -44,4 +44,12 @@ void replace_file(const std::filesystem::path& temporary, const std::filesystem:
 /// The whole file. @throws EnvironmentError  if it is not there or cannot be read
 std::string read_whole_file(const std::filesystem::path& file);
 
+/// What is wrong with a file that was to be read.
+struct FileProblem {
+  std::string problem, reason, suggestion;
+  int line = 0;  ///< from 1, 0 = unknown
+};
+/// @throws InputError  always
+[[noreturn]] void refuse_file(const std::filesystem::path& file, const FileProblem& problem);
+
 }  // namespace sluice

@@ -18,7 +18,7 @@ enum class Outcome { running, completed, interrupted, failed };
 /// Names with numbers, in a fixed order.
 using NamedNumbers = std::vector<std::pair<std::string, double>>;
 
-struct PhaseBudget {
+struct BudgetEntry {
   double initial_kg = 0;
   double requested_kg = 0;  ///< rate x time of every source
   double entered_kg = 0;
@@ -72,8 +72,8 @@ struct RunManifest {
   } counts;
 
   struct Budgets {
-    std::optional<PhaseBudget> rock, water;
-    std::optional<PhaseBudget> fines;  ///< the part of `water` that is fines
+    std::optional<BudgetEntry> rock, water;
+    std::optional<BudgetEntry> fines;  ///< the part of `water` that is fines
     std::optional<std::array<double, 3>> momentum_residual_N_s;
     NamedNumbers energy;  ///< terms [J], named as in the manifest ("rock_kinetic_J"); empty = null
   } budgets;

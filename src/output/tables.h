@@ -13,7 +13,7 @@ namespace sluice {
 inline constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
 
 /// A mean with its 95 % confidence limits; NaN = not known.
-struct Estimate {
+struct TableEstimate {
   double mean = not_known, low = not_known, high = not_known;
 };
 
@@ -23,9 +23,9 @@ struct ExitBinRow {
   int bin = 0;                                  ///< from 0
   double from_m = 0, to_m = 0;                  ///< along the width, from its first end
   double from_s = not_known, to_s = not_known;  ///< averaging interval
-  Estimate rock_kg_s, water_kg_s;               ///< water with its fines
+  TableEstimate rock_kg_s, water_kg_s;          ///< water with its fines
   double fines_kg_s = not_known;
-  Estimate water_m3_per_t;  ///< water per tonne of rock
+  TableEstimate water_m3_per_t;  ///< water per tonne of rock
   double rock_speed_m_s = not_known, water_speed_m_s = not_known;
   double rock_size_mean_m = not_known;  ///< by mass
   double rock_size_p80_m = not_known;   ///< 80 % of the mass is finer
@@ -36,7 +36,7 @@ struct ExitBinRow {
 CsvTable exit_table(const std::vector<ExitBinRow>& rows);
 
 /// Mixing of one zone along the box at one time. One row of mixing.csv.
-struct MixingRow {
+struct MixingTableRow {
   double time_s = 0;
   std::string zone;               ///< name of the zone, or of the station along the box
   double position_m = not_known;  ///< along the box
@@ -45,7 +45,7 @@ struct MixingRow {
   double water_to_rock_cov = not_known;     ///< over the zone's cells
   double wetted_rock_fraction = not_known;  ///< of rock mass
 };
-CsvTable mixing_table(const std::vector<MixingRow>& rows);
+CsvTable mixing_table(const std::vector<MixingTableRow>& rows);
 
 /// One wall: loads since the run began and mean forces over it. One row of walls.csv.
 struct WallRow {
