@@ -18,29 +18,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "dem/superquadric_lanes.h"
+
 namespace sluice::newton {
-
-inline double select(bool mask, double yes, double no) {
-  return mask ? yes : no;
-}
-inline double absolute(double x) {
-  return std::fabs(x);
-}
-inline double root(double x) {
-  return std::sqrt(x);
-}
-inline bool any(bool mask) {
-  return mask;
-}
-
-template <class Real>
-Real larger(const Real& a, const Real& b) {
-  return select(a > b, a, b);
-}
-template <class Real>
-Real smaller(const Real& a, const Real& b) {
-  return select(a < b, a, b);
-}
 
 template <class Real>
 struct Triple {
@@ -92,23 +72,6 @@ struct SurfaceState {
   Triple<Real> normal;
   Triple<Real> curvature;  ///< [1/m]
 };
-
-/// f^(-1/m) for |f - 1| <= kNearOne, by the series of log (through atanh) and exp; to rounding.
-inline constexpr double kNearOne = 1.0 / 16;
-template <class Real>
-Real inverse_root_near_one(const Real& f, const Real& m) {
-  const Real z = (f - 1.0) / (f + 1.0);
-  const Real q = z * z;
-  const Real log =
-      2.0 * z * (1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11))))));
-  const Real t = -log / m;
-  return 1.0 + t * (1.0 + t * (1.0 / 2 +
-                               t * (1.0 / 6 +
-                                    t * (1.0 / 24 + t * (1.0 / 120 + t * (1.0 / 720 + t * (1.0 / 5040)))))));
-}
-inline double inverse_root(double f, double m) {
-  return std::fabs(f - 1) <= kNearOne ? inverse_root_near_one(f, m) : std::pow(f, -1 / m);
-}
 
 template <class Real, class Power>
 SurfaceState<Real> to_surface(const Body<Real, Power>& body, Triple<Real>& x) {
