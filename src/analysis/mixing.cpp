@@ -133,7 +133,7 @@ void MixingProbe::look(const SceneView& scene) {
       rock_grain.add(volume);
       SlabSums& slab = sums[cell / grid.per_slab()];
       slab.rock_kg += rocks.mass[i];
-      if (scene.wetted_fraction != nullptr) slab.wetted_kg += rocks.mass[i] * (*scene.wetted_fraction)[i];
+      slab.wetted_kg += rocks.mass[i] * rocks.wetted[i];
       if (rocks.wet_dose[i] > 0) slab.met_kg += rocks.mass[i];
     }
   }

@@ -18,7 +18,6 @@ struct SceneView {
   const DemSystem* rocks = nullptr;
   const FluidSystem* water = nullptr;
   const Walls* walls = nullptr;
-  const std::vector<double>* wetted_fraction = nullptr;  ///< per rock
 };
 
 class Probe {

@@ -83,7 +83,7 @@ bool Recorder::checkpoint_due(const Simulation& simulation) const {
 void Recorder::write_frame(const Simulation& simulation) {
   if (!frames_) return;
   const SceneView view = simulation.view();
-  frames_->write(take_snapshot(view.t, gravity_, view.rocks, view.water, *view.walls, view.wetted_fraction));
+  frames_->write(take_snapshot(view.t, gravity_, view.rocks, view.water, *view.walls));
 }
 
 void Recorder::append_row(const Simulation& simulation) {

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "app/commands.h"
+#include "app/estimate.h"
 #include "app/process_source.h"
 #include "app/progress.h"
 #include "app/recorder.h"
@@ -75,6 +76,7 @@ class Run {
   void exchange(StateArchive& archive);
   void save();
   void keep_in_memory();
+  ProgressState progress_of(double end) const;
   int finish(Outcome outcome, const std::optional<RunManifest::Failure>& failure);
 
   RunOptions options_;
@@ -137,16 +139,32 @@ void Run::keep_in_memory() {
   exchange(last_good_);
 }
 
+ProgressState Run::progress_of(double end) const {
+  const Parts& parts = simulation_->parts();
+  ProgressState state;
+  state.simulated = simulation_->time();
+  state.until = end;
+  state.wall = seconds_since(start_);
+  if (parts.rocks) {
+    state.rocks = parts.rocks->rocks().count();
+    state.dt_rock = simulation_->time_step().dt_rock();
+  }
+  if (parts.water) {
+    state.water_points = parts.water->count();
+    state.dt_water = simulation_->time_step().dt_fluid();
+  }
+  return state;
+}
+
 int Run::finish(Outcome outcome, const std::optional<RunManifest::Failure>& failure) {
   save();
   recorder_->write_frame(*simulation_);
   const double wall = wall_before_ + seconds_since(start_);
-  const Summary summary{source_, config_, *simulation_, built_.rock_rate, wall, warnings_};
-  write_summary(folder_, summary, outcome, failure);
+  write_summary(folder_, {source_, *simulation_, built_.rock_rate, wall, warnings_}, outcome, failure);
   const SceneView view = simulation_->view();
-  write_view(folder_.view(), make_view(take_snapshot(view.t, config_.gravity, view.rocks, view.water,
-                                                     *view.walls, view.wetted_fraction),
-                                       view_marks(config_)));
+  write_view(folder_.view(),
+             make_view(take_snapshot(view.t, config_.gravity, view.rocks, view.water, *view.walls),
+                       view_marks(config_)));
   write_run_page(folder_.root);
   fmt::print("page: {}\n", folder_.report().string());
   return outcome == Outcome::completed ? 0 : outcome == Outcome::interrupted ? 130 : 3;
@@ -157,8 +175,11 @@ int Run::go() {
   const EarlyStop early(config_, built_.rock_rate);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  print_header(config_, *simulation_, warnings_);
-  Progress progress(simulation_->time(), end);
+  fmt::print("{}\n", config_.title);
+  print_parts(simulation_->parts());
+  for (const std::string& warning : warnings_) fmt::print("warning: {}\n", warning);
+  std::fflush(stdout);
+  Progress progress(stderr);
   keep_in_memory();
   const double dt = simulation_->time_step().dt;
   bool stopped_early = false;
@@ -170,7 +191,7 @@ int Run::go() {
       if (recorder_->checkpoint_due(*simulation_)) {
         save();
         keep_in_memory();
-        write_manifest(folder_.manifest(), make_manifest({source_, config_, *simulation_, built_.rock_rate,
+        write_manifest(folder_.manifest(), make_manifest({source_, *simulation_, built_.rock_rate,
                                                           wall_before_ + seconds_since(start_), warnings_},
                                                          Outcome::running, std::nullopt));
         if (early.reached(*simulation_)) {
@@ -178,10 +199,10 @@ int Run::go() {
           break;
         }
       }
-      progress.update(progress_state(*simulation_));
+      progress.update(progress_of(end));
     }
   } catch (const NumericalError& e) {
-    progress.finish();
+    progress.finish(progress_of(end));
     fmt::print(stderr, "{}\n", e.what());
     last_good_.rewind_to_load();
     exchange(last_good_);
@@ -189,7 +210,7 @@ int Run::go() {
                folder_.checkpoint().string());
     return finish(Outcome::failed, RunManifest::Failure{e.stage(), e.time(), e.what()});
   }
-  progress.finish();
+  progress.finish(progress_of(end));
   if (interrupted) {
     fmt::print(stderr, "interrupted at t = {:.6g} s; `--resume` goes on from here\n", simulation_->time());
     return finish(Outcome::interrupted, std::nullopt);

@@ -32,6 +32,8 @@ std::string InputProblem::text() const {
 InputError::InputError(std::vector<InputProblem> problems)
     : std::runtime_error(join(problems)), problems_(std::move(problems)) {}
 
+InputError::InputError(InputProblem problem) : InputError(std::vector<InputProblem>{std::move(problem)}) {}
+
 NumericalError::NumericalError(std::string stage, double time, const std::string& problem,
                                const std::string& remedy)
     : std::runtime_error(fmt::format("{} t={:.6g} s: {}; {}", stage, time, problem, remedy)),

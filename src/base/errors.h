@@ -38,7 +38,7 @@ struct InputProblem {
 class InputError : public std::runtime_error {
  public:
   explicit InputError(std::vector<InputProblem> problems);
-  explicit InputError(InputProblem problem) : InputError(std::vector<InputProblem>{std::move(problem)}) {}
+  explicit InputError(InputProblem problem);
   const std::vector<InputProblem>& problems() const { return problems_; }
 
  private:

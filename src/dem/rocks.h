@@ -22,6 +22,7 @@ struct Rocks {
   std::vector<double> radius;     ///< bounding radius [m]
   std::vector<double> birth;      ///< when it entered [s]
   std::vector<double> wet_dose;   ///< water met: integral of wetted fraction over time [s]
+  std::vector<double> wetted;     ///< share in water at the last exchange [0..1]; 0 in a dry scene
 
   std::size_t count() const { return id.size(); }
 };

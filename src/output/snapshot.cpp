@@ -2,7 +2,7 @@
 
 namespace sluice {
 
-RockSnapshot snapshot_rocks(const DemSystem& dem, const std::vector<double>* wetted_fraction) {
+RockSnapshot snapshot_rocks(const DemSystem& dem) {
   const Rocks& rocks = dem.rocks();
   RockSnapshot s;
   s.id = rocks.id;
@@ -12,24 +12,23 @@ RockSnapshot snapshot_rocks(const DemSystem& dem, const std::vector<double>* wet
   s.size = rocks.size;
   s.mass = rocks.mass;
   s.shape = rocks.shape;
-  s.wetted.assign(rocks.count(), 0.0);
+  s.wetted = rocks.wetted;
   s.semi_axes.reserve(rocks.count());
   s.blockiness.reserve(rocks.count());
   for (std::size_t i = 0; i < rocks.count(); ++i) {
     s.semi_axes.push_back(dem.semi_axes(i));
     s.blockiness.push_back(dem.shapes()[static_cast<std::size_t>(rocks.shape[i])].blockiness);
     // rocks that entered after the last coupling step have no fraction yet
-    if (wetted_fraction && i < wetted_fraction->size()) s.wetted[i] = (*wetted_fraction)[i];
   }
   return s;
 }
 
 Snapshot take_snapshot(double time, const Vec3& gravity, const DemSystem* rocks, const FluidSystem* water,
-                       const Walls& walls, const std::vector<double>* wetted_fraction) {
+                       const Walls& walls) {
   Snapshot s;
   s.time = time;
   if (gravity.norm() > 0) s.up = -gravity.normalized();
-  if (rocks) s.rocks = snapshot_rocks(*rocks, wetted_fraction);
+  if (rocks) s.rocks = snapshot_rocks(*rocks);
   if (water) {
     s.water = water->points();
     s.water_point_volume = water->point_volume();

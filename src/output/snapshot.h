@@ -28,8 +28,7 @@ struct RockSnapshot {
   std::size_t count() const { return id.size(); }
 };
 
-/// @param wetted_fraction  per rock, null = dry
-RockSnapshot snapshot_rocks(const DemSystem& rocks, const std::vector<double>* wetted_fraction);
+RockSnapshot snapshot_rocks(const DemSystem& rocks);
 
 /// One moment. An absent phase is nullopt; walls may be null.
 struct Snapshot {
@@ -43,6 +42,6 @@ struct Snapshot {
 
 /// @param gravity  gives `up` [m/s2];  null systems are absent phases
 Snapshot take_snapshot(double time, const Vec3& gravity, const DemSystem* rocks, const FluidSystem* water,
-                       const Walls& walls, const std::vector<double>* wetted_fraction);
+                       const Walls& walls);
 
 }  // namespace sluice

@@ -206,14 +206,17 @@ void Builder::make_inflows(const RockSources& sources) {
     });
   }
   for (const PipeJetConfig& pipe : config_.pipes) add([&] { return make_pipe_jet(pipe, target_); });
-  for (const SprayNozzleConfig& spray : config_.sprays) add([&] { return make_spray_nozzle(spray, target_); });
+  for (const SprayNozzleConfig& spray : config_.sprays)
+    add([&] { return make_spray_nozzle(spray, target_); });
 }
 
 void Builder::make_fills(const RockSources& sources) {
   Parts& parts = built_.parts;
   InflowTarget target = target_;
   for (std::size_t i = 0; i < config_.rock_fills.size(); ++i, ++target.index)
-    collect([&] { parts.initial_rock_kg += fill_rocks(config_.rock_fills[i], sources.fill_mix[i], target).mass; });
+    collect([&] {
+      parts.initial_rock_kg += fill_rocks(config_.rock_fills[i], sources.fill_mix[i], target).mass;
+    });
   for (std::size_t i = 0; i < config_.water_fills.size(); ++i, ++target.index)
     collect([&] {
       const FilledMass filled = fill_water(config_.water_fills[i], *parts.walls, target);
@@ -242,8 +245,12 @@ BuiltProcess Builder::build() {
   if (config_.rocks) collect([&] { make_rocks(sources); });
   if (config_.water) collect([&] { make_water(); });
   stop_if_bad();
-  target_ = {parts.rocks.get(), parts.water.get(), parts.domain, config_.gravity,
-             static_cast<std::uint64_t>(config_.seed), 0};
+  target_ = {parts.rocks.get(),
+             parts.water.get(),
+             parts.domain,
+             config_.gravity,
+             static_cast<std::uint64_t>(config_.seed),
+             0};
   make_fills(sources);
   make_inflows(sources);
   stop_if_bad();
@@ -252,6 +259,8 @@ BuiltProcess Builder::build() {
                                                 parts.gravity, *parts.rocks, *parts.water);
   parts.exits.emplace(config_.exits, *parts.walls, config_.output.exit_slot);
   for (const GaugeConfig& gauge : config_.gauges) parts.probes.push_back(make_gauge(gauge));
+  for (const MixingConfig& mixing : config_.mixing)
+    parts.probes.push_back(std::make_unique<MixingProbe>(mixing));
   return std::move(built_);
 }
 

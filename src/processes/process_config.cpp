@@ -138,7 +138,7 @@ void ProcessConfig::keys(Schema& s) {
   s.named("rock_fills", rock_fills, {.doc = "rocks that are there at the start"});
   s.named("exits", exits, {.doc = "where rock and water are taken out and counted"});
   s.named("gauges", gauges, {.doc = "levels, pressures and hold-ups over time"});
-  s.section("mixing", mixing, {.doc = "how well rock and water mix along the box"});
+  s.named("mixing", mixing, {.doc = "how well rock and water mix along the box"});
   s.section("output", output, {.doc = "what is written, and how often"});
   s.section("stop", stop, {.doc = "end the run before 'duration'"});
   duration_at = s.at("duration");

@@ -103,7 +103,7 @@ struct ProcessConfig {
   std::vector<RockFillConfig> rock_fills;
   std::vector<ExitConfig> exits;
   std::vector<GaugeConfig> gauges;
-  std::optional<MixingConfig> mixing;
+  std::vector<MixingConfig> mixing;
   OutputConfig output;
   std::optional<StopConfig> stop;
   Location duration_at, rocks_at, water_at;

@@ -21,7 +21,7 @@ Simulation::Simulation(Parts parts)
       stages_(build_stages(*parts_, time_step_)) {}
 
 void Simulation::step() {
-  const StepTime now{time(), time_step_.dt};
+  const StepSpan now{time(), time_step_.dt};
   for (Stage& stage : stages_) {
     stage.seconds += seconds_of([&] { stage.run(now); });
     ++stage.calls;
@@ -51,7 +51,6 @@ SceneView Simulation::view() const {
   view.rocks = parts_->rocks.get();
   view.water = parts_->water.get();
   view.walls = parts_->walls.get();
-  view.wetted_fraction = parts_->coupling ? &parts_->coupling->wetted_fraction() : nullptr;
   return view;
 }
 

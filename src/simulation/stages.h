@@ -20,14 +20,14 @@
 
 namespace sluice {
 
-struct StepTime {
+struct StepSpan {
   double t = 0;   ///< at the start of the step [s]
   double dt = 0;  ///< [s]
 };
 
 struct Stage {
   std::string name;
-  std::function<void(const StepTime&)> run;
+  std::function<void(const StepSpan&)> run;
   double seconds = 0;
   std::uint64_t calls = 0;
 };

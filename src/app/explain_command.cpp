@@ -1,0 +1,18 @@
+#include <fmt/format.h>
+
+#include "app/commands.h"
+#include "processes/key_list.h"
+#include "processes/process_config.h"
+
+namespace sluice {
+
+int explain_keys(const ExplainOptions& options) {
+  const std::vector<KeyEntry> keys = process_keys<ProcessConfig>();
+  if (options.schema)
+    fmt::print("{}\n", json_schema(keys, "Sluice process"));
+  else
+    fmt::print("{}\n", options.key.empty() ? explain_all(keys) : explain_one(keys, options.key));
+  return 0;
+}
+
+}  // namespace sluice
