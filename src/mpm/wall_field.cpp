@@ -149,7 +149,7 @@ void WallField::visibility(int stencil, const Vec3i& base, const Vec3& x, Visibi
   const StencilPatch* patches = field.stencils.patches.data() + record.patches;
 
   // One patch that covers the stencil: the side decides
-  if (record.cutting == 1 && patches->covers_cut) {
+  if (record.cutting == 1 && patches->cut.covered()) {
     const bool above = is_above(height_over(field.sight.plane(*patches), at));
     out.hidden = above ? all_nodes & ~patches->above : patches->above;
     if (out.hidden) out.patch.fill(patches->patch);
@@ -172,7 +172,7 @@ void WallField::visibility(int stencil, const Vec3i& base, const Vec3& x, Visibi
         for (std::size_t j = 0; j < Targets::count; ++j) targets.x[k][j] = lowest + node_places[k][j];
       }
     }
-    const std::uint32_t cut = hidden_targets(field.sight, p, at, targets, beyond, s);
+    const std::uint32_t cut = hidden_targets(field.sight, p, Reach::cut_box, at, targets, beyond, s);
     for (std::uint32_t left = cut; left; left &= left - 1) {
       const auto j = static_cast<std::size_t>(std::countr_zero(left));
       if ((out.hidden >> j & 1) && first[j] <= s[j]) continue;

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "geometry/surface_query.h"
-
 namespace sluice {
 namespace {
 
@@ -16,9 +14,7 @@ constexpr int sample_groups = 32;  // 1024 samples: a plane's fraction within 0.
 struct Candidate {
   double distance = 0;  ///< to the foot
   const StencilPatch* patch = nullptr;
-  bool operator<(const Candidate& o) const {
-    return distance != o.distance ? distance < o.distance : patch->patch < o.patch->patch;
-  }
+  Vec3 normal = Vec3::Zero();  ///< towards the wall
 };
 
 Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
@@ -30,7 +26,7 @@ Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 /// The patch's point closest to x, if it is an inner point or one where the surface goes on smoothly.
 std::optional<Vec3> foot_on(const Sight& sight, const StencilPatch& p, const Vec3& x, double height) {
   const Vec3 q = x - height * sight.plane(p).normal;
-  if (p.covers_near || sight.inside(p, q, sight.walls.tolerance)) return q;
+  if (p.near.covered() || sight.inside(p, q, sight.walls.tolerance)) return q;
   double nearest_smooth = std::numeric_limits<double>::infinity(), nearest_free = nearest_smooth;
   Vec3 foot = q;
   for (std::int32_t index : sight.stencils.triangles_of(p)) {
@@ -93,34 +89,32 @@ const std::array<Targets, sample_groups>& spline_samples() {
 
 int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x, const Vec3& seen_at,
                   WallPlane* out, int max) {
-  // The nearest few; more than this only over facets far smaller than a cell, which merge anyway
-  std::array<Candidate, 48> found;
-  std::size_t count = 0;
-  for (const StencilPatch& p : sight.stencils.patches_of(record)) {
-    const double height = height_over(sight.plane(p), seen_at);
-    if (!(std::abs(height) < plane_reach)) continue;
-    const std::optional<Vec3> foot = foot_on(sight, p, seen_at, height);
-    if (!foot) continue;
-    const Candidate c{(*foot - seen_at).norm(), &p};
-    if (c.distance >= plane_reach || (count == found.size() && !(c < found.back()))) continue;
-    if (record.near > 1 && !sight.sees(record, seen_at, *foot + 1e-3 * (seen_at - *foot), p.patch)) continue;
-    if (count < found.size()) ++count;
-    std::size_t i = count - 1;
-    for (; i > 0 && c < found[i - 1]; --i) found[i] = found[i - 1];
-    found[i] = c;
-  }
-
+  const auto patches = sight.stencils.patches_of(record);
   int written = 0;
-  for (std::size_t i = 0; i < count && written < max; ++i) {
-    const WallPatch& plane = sight.plane(*found[i].patch);
-    const bool above = is_above(height_over(plane, seen_at));
-    const Vec3 normal = above ? Vec3(-plane.normal) : plane.normal;
-    const bool merged = std::any_of(out, out + written, [&](const WallPlane& earlier) {
-      return earlier.normal.dot(normal) > smooth_cosine;
-    });
-    if (merged) continue;
-    const double height = height_over(plane, x);
-    out[written++] = {normal, std::max(0.0, above ? height : -height), plane.wall, found[i].patch->patch};
+  while (written < max) {
+    Candidate best{plane_reach, nullptr, Vec3::Zero()};
+    for (const StencilPatch& p : patches) {
+      const WallPatch& plane = sight.plane(p);
+      const double height = height_over(plane, seen_at);
+      if (!(std::abs(height) < best.distance)) continue;
+      const Vec3 normal = is_above(height) ? Vec3(-plane.normal) : plane.normal;
+      const bool merged = std::any_of(out, out + written, [&](const WallPlane& earlier) {
+        return earlier.normal.dot(normal) > smooth_cosine;
+      });
+      if (merged) continue;
+      const std::optional<Vec3> foot = foot_on(sight, p, seen_at, height);
+      if (!foot) continue;
+      const double distance = (*foot - seen_at).norm();
+      if (distance >= best.distance) continue;
+      if (patches.size() > 1 && !sight.sees(record, seen_at, *foot + 1e-3 * (seen_at - *foot), p.patch))
+        continue;
+      best = {distance, &p, normal};
+    }
+    if (!best.patch) break;
+    const WallPatch& plane = sight.plane(*best.patch);
+    const double side = best.normal.dot(plane.normal) < 0 ? 1 : -1;
+    out[written++] = {best.normal, std::max(0.0, side * height_over(plane, x)), plane.wall,
+                      best.patch->patch};
   }
   return written;
 }
@@ -138,11 +132,8 @@ double open_fraction_of(const Sight& sight, const StencilRecord& record) {
     for (const StencilPatch& p : patches) {
       const std::uint32_t beyond = targets_beyond(sight.plane(p), eye, targets) & ~hidden;
       if (!beyond) continue;
-      StencilPatch whole = p;  // samples reach 1.5 h, beyond the cut box
-      whole.covers_cut = p.covers_near;
-      whole.in_cut_box = p.in_near_box;
       alignas(64) double s[Targets::count];
-      hidden |= hidden_targets(sight, whole, eye, targets, beyond, s);
+      hidden |= hidden_targets(sight, p, Reach::near_box, eye, targets, beyond, s);
     }
     open += Targets::count - std::popcount(hidden);
   }

@@ -19,6 +19,11 @@ std::uint32_t pack(const double* value, double at_least) {
 bool Sight::inside(const StencilPatch& p, const Vec3& q, double tolerance) const {
   const WallPatch& patch = plane(p);
   const double u = q[patch.u], v = q[patch.v];
+  if (p.near.edge_count >= 0) {
+    for (const Vec3& e : stencils.edges_of(p.near))
+      if (e[0] * u + e[1] * v + e[2] < -tolerance) return false;
+    return true;
+  }
   for (std::int32_t t : stencils.triangles_of(p)) {
     const auto& e = walls.triangles[static_cast<std::size_t>(t)].edge;
     if (e[0][0] * u + e[0][1] * v + e[0][2] >= -tolerance &&
@@ -35,7 +40,7 @@ std::optional<double> Sight::crossing(const StencilPatch& p, const Vec3& a, cons
   if (is_above(height_a) == is_above(height_b)) return std::nullopt;
   const double fall = height_a - height_b;
   const double s = std::clamp(height_a / fall, 0.0, 1.0);
-  if (p.covers_near) return s;
+  if (p.near.covered()) return s;
   // Corners off the plane open a seam towards the next patch, the wider the flatter the path
   const double along = std::sqrt(std::max(0.0, (b - a).squaredNorm() - fall * fall));
   const double seam = std::min(2 * patch.deviation * along / std::abs(fall), 1e-2);
@@ -58,8 +63,9 @@ std::uint32_t targets_beyond(const WallPatch& plane, const Vec3& x, const Target
   return is_above(height_over(plane, x)) ? ~above : above;
 }
 
-std::uint32_t hidden_targets(const Sight& sight, const StencilPatch& p, const Vec3& x, const Targets& targets,
-                             std::uint32_t candidates, double* s) {
+std::uint32_t hidden_targets(const Sight& sight, const StencilPatch& p, Reach reach, const Vec3& x,
+                             const Targets& targets, std::uint32_t candidates, double* s) {
+  const PatchSection& section = reach == Reach::cut_box ? p.cut : p.near;
   const WallPatch& plane = sight.plane(p);
   const double n0 = plane.normal[0], n1 = plane.normal[1], n2 = plane.normal[2], offset = plane.offset;
   const double from = height_over(plane, x);
@@ -67,7 +73,7 @@ std::uint32_t hidden_targets(const Sight& sight, const StencilPatch& p, const Ve
     const double to = n0 * targets.x[0][j] + n1 * targets.x[1][j] + n2 * targets.x[2][j] - offset;
     s[j] = from / (from - to);
   }
-  if (p.covers_cut) return candidates;
+  if (section.covered()) return candidates;
 
   alignas(64) double u[lanes], v[lanes], depth[lanes];
   const double *target_u = targets.x[plane.u], *target_v = targets.x[plane.v];
@@ -75,10 +81,22 @@ std::uint32_t hidden_targets(const Sight& sight, const StencilPatch& p, const Ve
   for (int j = 0; j < lanes; ++j) {
     u[j] = xu + s[j] * (target_u[j] - xu);
     v[j] = xv + s[j] * (target_v[j] - xv);
-    depth[j] = -1e300;
   }
+  if (section.edge_count > 0) {
+    for (double& d : depth) d = 1e300;
+    for (const Vec3& e : sight.stencils.edges_of(section)) {
+      const double a = e[0], b = e[1], c = e[2];
+      for (int j = 0; j < lanes; ++j) {
+        const double d = a * u[j] + b * v[j] + c;
+        depth[j] = depth[j] < d ? depth[j] : d;
+      }
+    }
+    return candidates & pack(depth, -sight.walls.tolerance);
+  }
+
+  for (double& d : depth) d = -1e300;
   const std::int32_t* t = sight.stencils.triangles.data() + p.triangles;
-  for (std::int32_t i = 0; i < p.in_cut_box; ++i) {
+  for (std::int32_t i = 0; i < section.triangles; ++i) {
     const auto& e = sight.walls.triangles[static_cast<std::size_t>(t[i])].edge;
     const double a0 = e[0][0], b0 = e[0][1], c0 = e[0][2], a1 = e[1][0], b1 = e[1][1], c1 = e[1][2],
                  a2 = e[2][0], b2 = e[2][1], c2 = e[2][2];

@@ -21,7 +21,7 @@ inline bool is_above(double height) {
   return height >= 0;
 }
 
-/// Patches of a scene with the tolerance that they share.
+/// Patches of a scene and where they stand to the grid.
 struct Sight {
   const WallPatches& walls;
   const WallStencils& stencils;
@@ -29,9 +29,9 @@ struct Sight {
   const WallPatch& plane(const StencilPatch& p) const {
     return walls.patches[static_cast<std::size_t>(p.patch)];
   }
-  /// True if a point of the plane lies in the patch, within `tolerance`.
+  /// True if a point of the plane and of the near box lies in the patch, within `tolerance`.
   bool inside(const StencilPatch& p, const Vec3& q, double tolerance) const;
-  /// Where along a-b the patch is crossed, 0..1.
+  /// Where along a-b the patch is crossed, 0..1. @pre a and b lie in the near box
   std::optional<double> crossing(const StencilPatch& p, const Vec3& a, const Vec3& b) const;
   /// True if no patch of the record but `except` (an index of a patch, -1 for none) stands between a and b.
   bool sees(const StencilRecord& record, const Vec3& a, const Vec3& b, int except) const;
@@ -43,11 +43,14 @@ struct Targets {
   alignas(64) double x[3][count];
 };
 
+enum class Reach { cut_box, near_box };
+
 /// Bits of the targets that a patch hides from x; `s` receives where each segment meets the plane (only
 /// valid for those beyond the plane).
+/// @param reach  the box that holds x and the targets
 /// @param candidates  bits of the targets beyond the plane
-std::uint32_t hidden_targets(const Sight& sight, const StencilPatch& p, const Vec3& x, const Targets& targets,
-                             std::uint32_t candidates, double* s);
+std::uint32_t hidden_targets(const Sight& sight, const StencilPatch& p, Reach reach, const Vec3& x,
+                             const Targets& targets, std::uint32_t candidates, double* s);
 
 /// Bits of the targets on the side of the plane on which x is not.
 std::uint32_t targets_beyond(const WallPatch& plane, const Vec3& x, const Targets& targets);

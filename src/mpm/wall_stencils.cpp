@@ -46,11 +46,62 @@ bool segment_meets_cube(const Vec3& a, const Vec3& b, const Vec3& centre, double
   return from <= to + 1e-9;
 }
 
-bool boundary_meets_cube(const WallTriangle& t, const Vec3& centre, double half) {
-  for (std::size_t k = 0; k < 3; ++k)
-    if ((t.boundary >> k & 1) && segment_meets_cube(t.corner[k], t.corner[(k + 1) % 3], centre, half))
-      return true;
-  return false;
+/// Corners of the part of a triangle inside a cube (Sutherland-Hodgman).
+std::vector<Vec3> clipped(const WallTriangle& t, const Vec3& centre, double half) {
+  std::vector<Vec3> polygon(t.corner.begin(), t.corner.end()), next;
+  for (int side = 0; side < 6 && !polygon.empty(); ++side) {
+    const int axis = side / 2;
+    const double sign = side % 2 ? -1 : 1;
+    auto outside = [&](const Vec3& x) { return sign * (x[axis] - centre[axis]) - half; };
+    next.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      const double out_a = outside(a), out_b = outside(b);
+      if (out_a <= 0) next.push_back(a);
+      if ((out_a < 0 && out_b > 0) || (out_a > 0 && out_b < 0))
+        next.push_back(a + out_a / (out_a - out_b) * (b - a));
+    }
+    polygon.swap(next);
+  }
+  return polygon;
+}
+
+/// Bounds a patch's section with a cube by half planes, appended to `edges`, if it is convex.
+///
+/// It is when each boundary edge that meets the cube has all of the section on its inner side: no boundary
+/// then enters the intersection of the half planes, which is connected, so that it is all patch.
+PatchSection section_of(const WallPatches& walls, std::span<const std::int32_t> triangles, const Vec3& centre,
+                        double half, std::vector<Vec3>& edges) {
+  PatchSection section{static_cast<std::int32_t>(triangles.size()), static_cast<std::int32_t>(edges.size()),
+                       0};
+  if (triangles.empty()) return {};
+  for (std::int32_t index : triangles) {
+    const WallTriangle& t = walls.triangles[static_cast<std::size_t>(index)];
+    for (std::size_t k = 0; k < 3; ++k) {
+      if (!(t.boundary >> k & 1) || !segment_meets_cube(t.corner[k], t.corner[(k + 1) % 3], centre, half))
+        continue;
+      const bool known = std::any_of(edges.begin() + section.edges, edges.end(), [&](const Vec3& e) {
+        return (e - t.edge[k]).cwiseAbs().maxCoeff() < 1e-9;  // the same straight edge, in pieces
+      });
+      if (!known) edges.push_back(t.edge[k]);
+    }
+  }
+  section.edge_count = static_cast<std::int32_t>(edges.size()) - section.edges;
+  if (section.edge_count == 0) return section;
+
+  const WallPatch& patch =
+      walls.patches[static_cast<std::size_t>(walls.triangles[static_cast<std::size_t>(triangles[0])].patch)];
+  for (std::int32_t index : triangles) {
+    for (const Vec3& x : clipped(walls.triangles[static_cast<std::size_t>(index)], centre, half)) {
+      for (auto e = edges.begin() + section.edges; e != edges.end(); ++e) {
+        if ((*e)[0] * x[patch.u] + (*e)[1] * x[patch.v] + (*e)[2] >= -walls.tolerance) continue;
+        edges.resize(static_cast<std::size_t>(section.edges));
+        section.edge_count = -1;
+        return section;
+      }
+    }
+  }
+  return section;
 }
 
 /// Calls visit(base) for each base from lo to hi whose near box meets the triangle.
@@ -123,10 +174,10 @@ WallStencils::WallStencils(const WallPatches& walls, const Vec3i& lo, const Vec3
         ++records[r].near;
         last = patch;
       }
-      ++patches.back().in_near_box;
+      ++patches.back().near.triangles;
     }
   }
-  parallel_for(records.size(), [&](std::size_t r) { classify(walls, r); });
+  classify_all(walls);
 }
 
 int WallStencils::find_or_add(const Vec3i& base) {
@@ -165,13 +216,27 @@ void WallStencils::order_records(std::vector<std::int32_t>& record_of_pair) {
   for (std::int32_t& r : record_of_pair) r = now[static_cast<std::size_t>(r)];
 }
 
-void WallStencils::classify(const WallPatches& walls, std::size_t record) {
-  StencilRecord& r = records[record];
+void WallStencils::classify_all(const WallPatches& walls) {
+  constexpr std::size_t chunk = 256;
+  std::vector<std::vector<Vec3>> found((records.size() + chunk - 1) / chunk);
+  parallel_chunks(records.size(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t r = begin; r < end; ++r) classify(walls, records[r], found[c]);
+  });
+  for (std::size_t c = 0; c < found.size(); ++c) {
+    const auto before = static_cast<std::int32_t>(edges.size());
+    edges.insert(edges.end(), found[c].begin(), found[c].end());
+    for (std::size_t r = c * chunk; r < std::min(records.size(), (c + 1) * chunk); ++r) {
+      for (std::int32_t i = records[r].patches; i < records[r].patches + records[r].near; ++i) {
+        patches[static_cast<std::size_t>(i)].near.edges += before;
+        patches[static_cast<std::size_t>(i)].cut.edges += before;
+      }
+    }
+  }
+}
+
+void WallStencils::classify(const WallPatches& walls, StencilRecord& r, std::vector<Vec3>& found_edges) {
   const Vec3 centre = (r.base.cast<double>().array() + 1).matrix();
   constexpr double near_half = 2 + box_slack, cut_half = 1 + box_slack;
-  auto triangle = [&](std::int32_t t) -> const WallTriangle& {
-    return walls.triangles[static_cast<std::size_t>(t)];
-  };
   const auto first = patches.begin() + r.patches, last = first + r.near;
   for (auto p = first; p != last; ++p) {
     const WallPatch& plane = walls.patches[static_cast<std::size_t>(p->patch)];
@@ -179,19 +244,18 @@ void WallStencils::classify(const WallPatches& walls, std::size_t record) {
       const Vec3 x = (r.base + Vec3i(node % 3, node / 3 % 3, node / 9)).cast<double>() + node_offset;
       if (plane.normal.dot(x) - plane.offset >= 0) p->above |= 1u << node;
     }
-    const auto begin = triangles.begin() + p->triangles, end = begin + p->in_near_box;
-    const auto split = std::stable_partition(
-        begin, end, [&](std::int32_t t) { return meets_cube(triangle(t), centre, cut_half); });
-    p->in_cut_box = static_cast<std::int32_t>(split - begin);
-    p->cuts = p->in_cut_box > 0 && p->above != 0 && p->above != all_nodes;
-    p->covers_cut = p->cuts && std::none_of(begin, split, [&](std::int32_t t) {
-                      return boundary_meets_cube(triangle(t), centre, cut_half);
-                    });
-    p->covers_near = std::none_of(
-        begin, end, [&](std::int32_t t) { return boundary_meets_cube(triangle(t), centre, near_half); });
+    const std::span<std::int32_t> all(triangles.data() + p->triangles,
+                                      static_cast<std::size_t>(p->near.triangles));
+    const auto split = std::stable_partition(all.begin(), all.end(), [&](std::int32_t t) {
+      return meets_cube(walls.triangles[static_cast<std::size_t>(t)], centre, cut_half);
+    });
+    const std::span<const std::int32_t> cutting(all.begin(), split);
+    p->near = section_of(walls, all, centre, near_half, found_edges);
+    p->cut = section_of(walls, cutting, centre, cut_half, found_edges);
+    p->cuts = !cutting.empty() && p->above != 0 && p->above != all_nodes;
   }
   std::stable_sort(first, last, [](const StencilPatch& a, const StencilPatch& b) {
-    return 2 * a.cuts + a.covers_cut > 2 * b.cuts + b.covers_cut;
+    return 2 * a.cuts + a.cut.covered() > 2 * b.cuts + b.cut.covered();
   });
   r.cutting = static_cast<std::int32_t>(
       std::count_if(first, last, [](const StencilPatch& p) { return p.cuts != 0; }));
@@ -199,6 +263,7 @@ void WallStencils::classify(const WallPatches& walls, std::size_t record) {
 
 std::size_t WallStencils::memory_bytes() const {
   return records.capacity() * sizeof(StencilRecord) + patches.capacity() * sizeof(StencilPatch) +
+         edges.capacity() * sizeof(Vec3) +
          (triangles.capacity() + block_.capacity() + cell_.capacity()) * sizeof(std::int32_t);
 }
 

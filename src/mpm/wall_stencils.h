@@ -5,9 +5,11 @@
 ///       cut box  [base, base + 2]       all segments from a point of the stencil to one of its 27 nodes
 ///    point cell  [base + 1/2, base + 3/2]
 ///
-/// Grid units throughout. A patch without a boundary edge in a box, but with a triangle in it, covers the
-/// whole section of its plane with that box: there, the side of the plane decides alone.
+/// Grid units throughout. The section of a patch with a box is known by its triangles; where it is convex,
+/// by the few boundary edges that meet the box (a lip: one). Without such an edge the patch covers the
+/// whole section of its plane with the box: there, the side of the plane decides alone.
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -19,16 +21,24 @@ namespace sluice {
 
 constexpr std::uint32_t all_nodes = (1u << 27) - 1;
 
+/// The part of a patch in one of the boxes.
+struct PatchSection {
+  std::int32_t triangles = 0;  ///< how many of the patch's triangles meet the box
+  std::int32_t edges = 0;      ///< first of its half planes, in WallStencils::edges
+  /// Where the section is convex: how many half planes bound it (0 = the patch covers the whole section of
+  /// its plane with the box). Otherwise -1: ask the triangles.
+  std::int32_t edge_count = -1;
+  bool covered() const { return edge_count == 0; }
+};
+
 /// One patch in one stencil.
 struct StencilPatch {
   std::int32_t patch = -1;
-  std::uint32_t above = 0;       ///< nodes on the normal's side
-  std::int32_t triangles = 0;    ///< first of its triangles, in WallStencils::triangles
-  std::int32_t in_near_box = 0;  ///< how many of its triangles meet the near box
-  std::int32_t in_cut_box = 0;   ///< how many of them meet the cut box; these come first
-  std::uint8_t cuts = 0;         ///< can hide nodes of the stencil
-  std::uint8_t covers_cut = 0;   ///< no boundary edge in the cut box
-  std::uint8_t covers_near = 0;  ///< no boundary edge in the near box
+  std::uint32_t above = 0;     ///< nodes on the normal's side
+  std::int32_t triangles = 0;  ///< first of its triangles, in WallStencils::triangles
+  std::int32_t cuts = 0;       ///< 1 if it can hide nodes of the stencil
+  PatchSection near{};         ///< in the near box
+  PatchSection cut{};          ///< in the cut box; its triangles come first
 };
 
 struct StencilRecord {
@@ -58,18 +68,23 @@ class WallStencils {
     return {patches.data() + r.patches, static_cast<std::size_t>(r.near)};
   }
   std::span<const std::int32_t> triangles_of(const StencilPatch& p) const {
-    return {triangles.data() + p.triangles, static_cast<std::size_t>(p.in_near_box)};
+    return {triangles.data() + p.triangles, static_cast<std::size_t>(p.near.triangles)};
+  }
+  std::span<const Vec3> edges_of(const PatchSection& section) const {
+    return {edges.data() + section.edges, static_cast<std::size_t>(std::max(0, section.edge_count))};
   }
   std::size_t memory_bytes() const;
 
   std::vector<StencilRecord> records;
   std::vector<StencilPatch> patches;
   std::vector<std::int32_t> triangles;  ///< indices of WallPatches::triangles
+  std::vector<Vec3> edges;              ///< half planes, as WallTriangle::edge
 
  private:
   int find_or_add(const Vec3i& base);
   void order_records(std::vector<std::int32_t>& record_of_pair);
-  void classify(const WallPatches& walls, std::size_t record);
+  void classify_all(const WallPatches& walls);
+  void classify(const WallPatches& walls, StencilRecord& record, std::vector<Vec3>& found_edges);
 
   Vec3i lo_ = Vec3i::Zero();
   std::array<std::uint32_t, 3> blocks_{0, 0, 0};
