@@ -38,7 +38,7 @@ TEST_F(ProcessDocumentTest, RefusesWhatIsNotOneSection) {
 
 TEST_F(ProcessDocumentTest, RefusesFilesOfAnotherKind) {
   EXPECT_NE(wrong(std::string(300, 'x')).find("x ...' (a section with keys is needed)"), std::string::npos);
-  EXPECT_NE(wrong(std::string("\0\x01\xff\xfe garbage\0", 16)), "nothing");
+  EXPECT_NE(wrong(std::string("\0\x01\xff\xfe garbage\0", 13)), "nothing");
   EXPECT_NE(wrong("solid plate\n facet normal 0 0 1\n"), "nothing");
 }
 
