@@ -113,8 +113,8 @@ void add_hood(const FeedBox& box, TriMesh& mesh) {
   const double burden = box.belt_height + box.skirt_height, plate_top = box.belt_height - 20;
   // Top, then the rear wall around the belt's opening; all corners meet corners.
   const auto rear = [&](double y0, double y1, double z0, double z1) {
-    mesh.append(make_rectangle("inlet_hood", {point(box.back, y0, z0), point(box.back, y1, z0),
-                                              point(box.back, y1, z1), point(box.back, y0, z1)}));
+    mesh.append(make_rectangle("inlet_hood", {point(box.back, y0, z0), point(box.back, y0, z1),
+                                              point(box.back, y1, z1), point(box.back, y1, z0)}));
   };
   const double rows[] = {-wide, -narrow, narrow, wide};
   for (int k = 0; k < 3; ++k) {

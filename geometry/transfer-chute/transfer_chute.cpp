@@ -32,7 +32,7 @@ Vec3 point(double x, double y, double z) {
 struct TransferChute {
   double width = 1200;
   double belt_width = 1000, belt_start = -1500, belt_height = 2400, pulley_radius = 300;
-  double hood_x = 1050, hood_top = 2950, hood_bottom = 1150, hood_radius = 450;
+  double hood_x = 900, hood_top = 2950, hood_bottom = 1150, hood_radius = 450;
   double spoon_x = 480, spoon_top = 1500, spoon_bottom = 400, spoon_first_slope = 75, spoon_last_slope = 40;
   double rear_x = -20;
 };
