@@ -1,0 +1,145 @@
+#include "base/parallel.h"
+#include "dem/dem_state.h"
+
+namespace sluice {
+
+namespace {
+template <class T>
+std::size_t bytes_of(const std::vector<T>& v) {
+  return v.capacity() * sizeof(T);
+}
+template <std::size_t N>
+void put(std::array<double, N>& row, std::size_t at, const Vec3& v) {
+  for (int k = 0; k < 3; ++k) row[at + static_cast<std::size_t>(k)] = v[k];
+}
+template <std::size_t N>
+Vec3 take(const std::array<double, N>& row, std::size_t at) {
+  return {row[at], row[at + 1], row[at + 2]};
+}
+}  // namespace
+
+void DemSystem::Implementation::exchange_rocks(StateArchive& archive) {
+  archive.values("id", rocks.id);
+  archive.values("x", rocks.x);
+  archive.values("v", rocks.v);
+  archive.values("w", rocks.w);
+  archive.values("q", rocks.q);
+  archive.values("shape", rocks.shape);
+  archive.values("material", rocks.material);
+  archive.values("source", rocks.source);
+  archive.values("size", rocks.size);
+  archive.values("mass", rocks.mass);
+  archive.values("radius", rocks.radius);
+  archive.values("birth", rocks.birth);
+  archive.values("wet_dose", rocks.wet_dose);
+  archive.values("wetted", rocks.wetted);
+  archive.values("angular_momentum", angular);
+  archive.values("force", force);
+  archive.values("torque", torque);
+  archive.values("fluid_force", fluid_force);
+  archive.values("fluid_torque", fluid_torque);
+  archive.values("listed_at", listed_at);
+  archive.value("list_valid", list_valid);
+  archive.value("next_id", next_id);
+  archive.value("steps", steps);
+  archive.value("now", now);
+}
+
+void DemSystem::Implementation::exchange_tallies(StateArchive& archive) {
+  std::vector<std::array<double, 11>> sums;
+  std::vector<std::array<double, 8>> loads;
+  for (const DemChunk& c : chunks) {
+    std::array<double, 11> row{c.lost_normal,  c.lost_friction, c.wall_work, c.fluid_work,
+                               c.mass_seconds, c.overlap_most,  c.elastic,   static_cast<double>(c.contacts)};
+    put(row, 8, c.fluid_impulse);
+    sums.push_back(row);
+    for (const WallLoad& load : c.loads) {
+      std::array<double, 8> flat{};
+      put(flat, 0, load.impulse);
+      put(flat, 3, load.angular_impulse);
+      flat[6] = load.sliding_energy;
+      flat[7] = load.impact_energy;
+      loads.push_back(flat);
+    }
+  }
+  archive.values("tallies", sums);
+  archive.values("loads", loads);
+  archive.values("overlap_histogram", overlap_histogram.counts());
+  archive.value("overlap_sum", overlap_sum);
+  archive.value("overlap_count", overlap_count);
+  if (!archive.loading()) return;
+  chunks.assign(sums.size(), {});
+  for (std::size_t c = 0; c < chunks.size(); ++c) {
+    DemChunk& chunk = chunks[c];
+    const auto& row = sums[c];
+    chunk.lost_normal = row[0];
+    chunk.lost_friction = row[1];
+    chunk.wall_work = row[2];
+    chunk.fluid_work = row[3];
+    chunk.mass_seconds = row[4];
+    chunk.overlap_most = row[5];
+    chunk.elastic = row[6];
+    chunk.contacts = static_cast<std::uint64_t>(row[7]);
+    chunk.fluid_impulse = take(row, 8);
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      const auto& flat = loads[c * walls.size() + w];
+      chunk.loads.push_back({take(flat, 0), take(flat, 3), flat[6], flat[7]});
+    }
+  }
+}
+
+void DemSystem::Implementation::exchange_walls(StateArchive& archive) {
+  std::vector<std::array<int, 5>> labels;  // rock, patch, wall, feature, side
+  std::vector<std::array<double, 16>> values;
+  for (std::size_t i = 0; i < near_walls.size(); ++i)
+    for (const WallTouch& touch : near_walls[i].touches) {
+      labels.push_back({static_cast<int>(i), touch.patch, touch.wall, touch.feature, touch.side});
+      std::array<double, 16> row{};
+      put(row, 0, touch.normal);
+      put(row, 3, touch.spring);
+      put(row, 6, touch.turned);
+      put(row, 9, touch.start);
+      put(row, 12, touch.point);
+      row[15] = touch.overlap;
+      values.push_back(row);
+    }
+  archive.values("wall_touch_labels", labels);
+  archive.values("wall_touches", values);
+  if (!archive.loading()) return;
+  // Which triangles are near is looked up again: contacts do not depend on what else is on the list.
+  near_walls.assign(has_walls ? count() : 0, {});
+  for (std::size_t k = 0; k < labels.size(); ++k) {
+    const auto& [rock, patch, wall, feature, side] = labels[k];
+    const auto& row = values[k];
+    near_walls[static_cast<std::size_t>(rock)].touches.push_back({patch, wall, feature, side, take(row, 0),
+                                                                  take(row, 12), row[15], take(row, 3),
+                                                                  take(row, 6), take(row, 9)});
+  }
+}
+
+void DemSystem::Implementation::exchange(StateArchive& archive) {
+  archive.enter("rocks");
+  exchange_rocks(archive);
+  pairs.exchange(archive);
+  exchange_tallies(archive);
+  exchange_walls(archive);
+  archive.leave();
+  if (archive.loading()) room_valid = false;
+}
+
+std::size_t DemSystem::Implementation::memory_bytes() const {
+  std::size_t bytes = pairs.memory_bytes() + room.memory_bytes() + surface.memory_bytes();
+  bytes += bytes_of(rocks.id) + bytes_of(rocks.x) + bytes_of(rocks.v) + bytes_of(rocks.w) + bytes_of(rocks.q);
+  bytes += bytes_of(rocks.shape) + bytes_of(rocks.material) + bytes_of(rocks.source) + bytes_of(rocks.size);
+  bytes += bytes_of(rocks.mass) + bytes_of(rocks.radius) + bytes_of(rocks.birth) + bytes_of(rocks.wet_dose);
+  bytes += bytes_of(angular) + bytes_of(force) + bytes_of(torque) + bytes_of(fluid_force);
+  bytes += bytes_of(fluid_torque) + bytes_of(listed_at) + bytes_of(bodies) + bytes_of(pair_force);
+  bytes += bytes_of(own_force) + bytes_of(own_torque) + bytes_of(room_reach) + bytes_of(near_walls);
+  for (const RockWalls& near : near_walls) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
+  for (const DemChunk& chunk : chunks)
+    bytes += sizeof(chunk) + bytes_of(chunk.loads) + bytes_of(chunk.overlaps) + bytes_of(chunk.scratch.hits) +
+             bytes_of(chunk.scratch.found);
+  return bytes;
+}
+
+}  // namespace sluice

@@ -1,0 +1,152 @@
+#include "dem/pair_list.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace sluice {
+
+namespace {
+constexpr std::size_t chunk_length = 256;
+constexpr std::size_t memory_columns = 9;
+}  // namespace
+
+void PairList::resize_memories(std::size_t pairs) {
+  touching.assign(pairs, 0);
+  spring.assign(pairs, Vec3::Zero());
+  if (contents_.rolling) turned.assign(pairs, Vec3::Zero());
+  if (contents_.superquadrics) memory.assign(pairs, {});
+}
+
+void PairList::copy_memory(const PairList& from, std::size_t old_pair, std::size_t new_pair) {
+  touching[new_pair] = from.touching[old_pair];
+  spring[new_pair] = from.spring[old_pair];
+  if (contents_.rolling) turned[new_pair] = from.turned[old_pair];
+  if (contents_.superquadrics) memory[new_pair] = from.memory[old_pair];
+}
+
+void PairList::find(std::span<const Vec3> x, std::span<const double> radius, double skin,
+                    const Domain& domain) {
+  const std::size_t n = x.size();
+  reach_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) reach_[i] = radius[i] + 0.5 * skin;
+  grid.build(x, reach_, domain);
+  found_.resize(std::max(found_.size(), (n + chunk_length - 1) / chunk_length));
+  for (auto& chunk : found_) chunk.clear();
+  const bool periodic = domain.any_periodic();
+  parallel_chunks(n, chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const int level = grid.level(i);
+      grid.near(x[i], reach_[i], level, [&](std::size_t j) {
+        if (grid.level(j) == level && j <= i) return;
+        Vec3 d = x[j] - x[i];
+        if (periodic) d = domain.nearest_image(d);
+        const double far = reach_[i] + reach_[j];
+        if (d.squaredNorm() >= far * far) return;
+        found_[c].push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))});
+      });
+    }
+  });
+  start.assign(n + 1, 0);
+  for (const auto& chunk : found_)
+    for (const auto& pair : chunk) ++start[static_cast<std::size_t>(pair[0]) + 1];
+  for (std::size_t i = 0; i < n; ++i) start[i + 1] += start[i];
+  second.resize(start[n]);
+  in_start.assign(start.begin(), start.end());
+  for (const auto& chunk : found_)
+    for (const auto& pair : chunk) second[in_start[static_cast<std::size_t>(pair[0])]++] = pair[1];
+  parallel_for(n,
+               [&](std::size_t i) { std::sort(second.begin() + start[i], second.begin() + start[i + 1]); });
+}
+
+void PairList::transpose() {
+  const std::size_t n = rock_count();
+  in_start.assign(n + 2, 0);
+  for (int j : second) ++in_start[static_cast<std::size_t>(j) + 2];
+  for (std::size_t i = 0; i < n; ++i) in_start[i + 2] += in_start[i + 1];
+  in_pair.resize(second.size());
+  for (std::size_t p = 0; p < second.size(); ++p)
+    in_pair[in_start[static_cast<std::size_t>(second[p]) + 1]++] = static_cast<std::uint32_t>(p);
+  in_start.pop_back();
+}
+
+void PairList::rebuild(std::span<const Vec3> x, std::span<const double> radius, double skin,
+                       const Domain& domain) {
+  PairList old(contents_);
+  old.start.swap(start);
+  old.second.swap(second);
+  old.touching.swap(touching);
+  old.spring.swap(spring);
+  old.turned.swap(turned);
+  old.memory.swap(memory);
+  find(x, radius, skin, domain);
+  resize_memories(second.size());
+  parallel_for(std::min(old.rock_count(), x.size()), [&](std::size_t i) {
+    std::size_t o = old.start[i];
+    for (std::size_t p = start[i]; p < start[i + 1]; ++p) {
+      while (o < old.start[i + 1] && old.second[o] < second[p]) ++o;
+      if (o < old.start[i + 1] && old.second[o] == second[p]) copy_memory(old, o, p);
+    }
+  });
+  transpose();
+}
+
+void PairList::renumber(std::span<const int> new_index, std::size_t new_count) {
+  std::vector<std::uint32_t> new_start(1, 0);
+  new_start.reserve(new_count + 1);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < rock_count(); ++i) {
+    if (new_index[i] < 0) continue;
+    for (std::size_t p = start[i]; p < start[i + 1]; ++p) {
+      const int j = new_index[static_cast<std::size_t>(second[p])];
+      if (j < 0) continue;
+      copy_memory(*this, p, kept);
+      second[kept++] = j;
+    }
+    new_start.push_back(static_cast<std::uint32_t>(kept));
+  }
+  start.swap(new_start);
+  second.resize(kept);
+  touching.resize(kept);
+  spring.resize(kept);
+  if (contents_.rolling) turned.resize(kept);
+  if (contents_.superquadrics) memory.resize(kept);
+  transpose();
+}
+
+void PairList::exchange(StateArchive& archive) {
+  archive.enter("pairs");
+  archive.values("start", start);
+  archive.values("second", second);
+  archive.values("touching", touching);
+  archive.values("spring", spring);
+  archive.values("turned", turned);
+  std::vector<std::array<double, memory_columns>> rows(memory.size());
+  for (std::size_t p = 0; p < memory.size(); ++p) {
+    const PairMemory& m = memory[p];
+    Eigen::Map<Vec3>(rows[p].data()) = m.surface_a;
+    Eigen::Map<Vec3>(rows[p].data() + 3) = m.surface_b;
+    Eigen::Map<Vec3>(rows[p].data() + 6) = m.normal;
+  }
+  archive.values("memory", rows);
+  archive.leave();
+  if (!archive.loading()) return;
+  memory.assign(rows.size(), {});
+  for (std::size_t p = 0; p < rows.size(); ++p) {
+    memory[p].surface_a = Eigen::Map<const Vec3>(rows[p].data());
+    memory[p].surface_b = Eigen::Map<const Vec3>(rows[p].data() + 3);
+    memory[p].normal = Eigen::Map<const Vec3>(rows[p].data() + 6);
+  }
+  transpose();
+}
+
+std::size_t PairList::memory_bytes() const {
+  std::size_t bytes = grid.memory_bytes() + reach_.capacity() * sizeof(double);
+  bytes += (start.capacity() + in_start.capacity() + in_pair.capacity()) * sizeof(std::uint32_t);
+  bytes += second.capacity() * sizeof(int) + touching.capacity();
+  bytes += (spring.capacity() + turned.capacity()) * sizeof(Vec3) + memory.capacity() * sizeof(PairMemory);
+  for (const auto& chunk : found_) bytes += chunk.capacity() * sizeof(chunk[0]);
+  return bytes;
+}
+
+}  // namespace sluice
