@@ -9,42 +9,12 @@
 
 #include "base/random.h"
 #include "mpm/wall_scenes.h"
+#include "mpm/wall_search.h"
 
 namespace sluice {
 namespace {
 
 using namespace wall_scenes;
-
-/// What the brute-force search over all triangles says about a segment.
-enum class Crossed { no, yes, unclear };
-
-/// First principles: signed volumes in double; a segment that grazes an edge or a plane is unclear.
-Crossed crosses(const TriMesh& mesh, const Vec3& a, const Vec3& b) {
-  Crossed result = Crossed::no;
-  for (const auto& t : mesh.triangles) {
-    const Vec3 &p = mesh.vertices[static_cast<std::size_t>(t[0])],
-               &q = mesh.vertices[static_cast<std::size_t>(t[1])],
-               &r = mesh.vertices[static_cast<std::size_t>(t[2])];
-    const Vec3 n = (q - p).cross(r - p);
-    const double area = n.norm();
-    if (area == 0) continue;
-    const double height_a = n.dot(a - p) / area, height_b = n.dot(b - p) / area;
-    const double tie = 1e-9 * spacing;
-    if ((height_a > tie && height_b > tie) || (height_a < -tie && height_b < -tie)) continue;
-    const Vec3 x = a + height_a / (height_a - height_b) * (b - a);
-    double inside = 1e300;
-    for (const auto& [c, d] : {std::pair{p, q}, std::pair{q, r}, std::pair{r, p}})
-      inside = std::min(inside, n.cross(d - c).normalized().dot(x - c));
-    if (std::abs(height_a) <= tie || std::abs(height_b) <= tie) {
-      if (inside > -1e-3 * spacing) return Crossed::unclear;
-    } else if (inside > 1e-4 * spacing) {
-      result = Crossed::yes;
-    } else if (inside > -1e-4 * spacing && result == Crossed::no) {
-      result = Crossed::unclear;  // at an edge: another triangle may settle it
-    }
-  }
-  return result;
-}
 
 struct Count {
   int hidden = 0, seen = 0, unclear = 0;
@@ -183,75 +153,6 @@ TEST(Patches, StayApartForDifferentWalls) {
   EXPECT_NE(field.patch_wall(0), field.patch_wall(1));
 }
 
-TEST(WallPath, NeverMissesAWall) {
-  for (const auto& [name, make] : all_scenes()) {
-    SCOPED_TRACE(name);
-    const Scene scene = make();
-    const WallField field(scene.walls, scene.domain, origin, spacing);
-    const TriMesh& mesh = scene.walls.mesh();
-    Random random(5);
-    int hits = 0;
-    for (int i = 0; i < 6000; ++i) {
-      // Through a corner, an edge or the inside of a random triangle
-      Vec3 through;
-      int attempt = 0;
-      do {
-        const auto& t = mesh.triangles[random.next() % mesh.triangles.size()];
-        Vec3 weights(random.uniform(), random.uniform(), random.uniform());
-        if (i % 3 >= 1) weights[0] = 0;
-        if (i % 9 == 2) weights[1] = 0;
-        weights /= weights.sum();
-        through.setZero();
-        for (int k = 0; k < 3; ++k)
-          through += weights[k] * mesh.vertices[static_cast<std::size_t>(t[static_cast<std::size_t>(k)])];
-      } while (!scene.look.contains(through) && ++attempt < 500);
-      const Vec3 way = random.on_sphere();
-      const Vec3 a = through - random.uniform(0.01, 0.9) * spacing * way;
-      const Vec3 b = through + random.uniform(0.01, i % 2 ? 0.9 : 6.0) * spacing * way;
-      if (!scene.look.contains(a) || !scene.look.contains(b)) continue;
-      const auto hit = field.first_hit(field.stencil(base_of(a)), a, b);
-      const auto again = field.first_hit(-1, a, b);
-      const Crossed want = crosses(mesh, a, b);
-      if (i % 3 == 0 ? want == Crossed::yes : scene.seams_are_shared(through)) {
-        ++hits;
-        ASSERT_TRUE(hit) << "from " << a.transpose() << " to " << b.transpose();
-        ASSERT_TRUE(again);
-        EXPECT_NEAR(hit->s, again->s, 1e-9);
-        EXPECT_LE((hit->point - (a + hit->s * (b - a))).norm(), 1e-9);
-        EXPECT_LE(hit->normal.dot(b - a), 1e-12);
-      } else if (want == Crossed::no) {
-        EXPECT_FALSE(hit && again) << "from " << a.transpose() << " to " << b.transpose();
-      }
-    }
-    EXPECT_GT(hits, 500);
-  }
-}
-
-TEST(WallPath, MeetsTheNearestOfTwoWalls) {
-  const Scene scene = thin_plate();
-  const WallField field(scene.walls, scene.domain, origin, spacing);
-  const Vec3 middle = scene.look.centre();
-  const auto down =
-      field.first_hit(-1, middle + Vec3(0, 0, 0.5 * spacing), middle - Vec3(0, 0, 0.5 * spacing));
-  const auto up = field.first_hit(-1, middle - Vec3(0, 0, 0.5 * spacing), middle + Vec3(0, 0, 0.5 * spacing));
-  ASSERT_TRUE(down && up);
-  EXPECT_NEAR(down->normal[2], 1, 1e-12);
-  EXPECT_NEAR(up->normal[2], -1, 1e-12);
-  EXPECT_NE(down->patch, up->patch);
-  EXPECT_NEAR(down->point[2] - up->point[2], 0.1 * spacing, 1e-12);
-}
-
-TEST(WallPath, FollowsAPathAcrossManyCells) {
-  const Scene scene = sheet_on_nodes();
-  const WallField field(scene.walls, scene.domain, origin, spacing);
-  const Vec3 middle = place_of({0, 0, 0}) + Vec3(0.3, 0.1, 0) * spacing;
-  const auto hit = field.first_hit(-1, middle + Vec3(0, 0, 100), middle - Vec3(0, 0, 50));
-  ASSERT_TRUE(hit);
-  EXPECT_NEAR(hit->s, 100.0 / 150.0, 1e-12);
-  EXPECT_FALSE(field.first_hit(-1, middle + Vec3(0, 0, 100), middle + Vec3(0, 0, 1)));
-  EXPECT_FALSE(field.first_hit(-1, middle + Vec3(0, 0, 1), Vec3::Constant(std::nan(""))));
-}
-
 TEST(NodePlanes, AreThreeInACornerOfABox) {
   const Scene scene = corner_box();
   const WallField field(scene.walls, scene.domain, origin, spacing);
@@ -283,6 +184,20 @@ TEST(NodePlanes, EndAtALip) {
     }
   }
   EXPECT_GT(before, 5);
+}
+
+TEST(NodePlanes, EndAtTheSquareEdgeOfASolid) {
+  // Beyond the rim of a plate neither its faces nor, above and below the rim, the rim itself
+  const Scene scene = plate_rim();
+  const WallField field(scene.walls, scene.domain, origin, spacing);
+  for (int i = 1; i <= 3; ++i) {
+    for (int k = -1; k <= 2; ++k) {
+      const Vec3i node = base_of(scene.corner + Vec3::Constant(0.5 * spacing)) + Vec3i(i, 0, k);
+      ASSERT_GT(place_of(node)[0], scene.corner[0]);
+      ASSERT_GT(std::abs(place_of(node)[2] - scene.corner[2]), 0.06 * spacing);
+      EXPECT_EQ(field.planes_of_node(node).size(), 0u) << place_of(node).transpose();
+    }
+  }
 }
 
 TEST(NodePlanes, PointAwayFromTheOwnSideOfAThinPlate) {

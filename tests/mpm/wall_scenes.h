@@ -74,6 +74,15 @@ inline Scene lip() {
   const Vec3 corner = place_of({0, 0, 0}) + Vec3(0.4, 0.3, 0.35) * spacing;
   return make_scene({sheet(corner - Vec3(30 * spacing, 0, 0), {30, 0, 0}, {0, 30, 0})}, corner, 5);
 }
+/// The same with every triangle twice, and one triangle without area.
+inline Scene damaged_lip() {
+  const Vec3 corner = place_of({0, 0, 0}) + Vec3(0.4, 0.3, 0.35) * spacing;
+  TriMesh mesh = sheet(corner - Vec3(30 * spacing, 0, 0), {30, 0, 0}, {0, 30, 0});
+  mesh.append(TriMesh(mesh));
+  mesh.triangles.push_back({1, 2, 1});
+  mesh.part.push_back(0);
+  return make_scene({mesh}, corner, 5);
+}
 /// A lip that follows grid lines.
 inline Scene lip_on_nodes() {
   const Vec3 corner = place_of({0, 0, 0});
@@ -158,6 +167,7 @@ inline std::vector<std::pair<std::string, std::function<Scene()>>> all_scenes() 
           {"sheet at 17 degrees", [] { return tilted_sheet(17); }},
           {"sheet at 45 degrees", [] { return tilted_sheet(45); }},
           {"lip", lip},
+          {"damaged lip", damaged_lip},
           {"lip on nodes", lip_on_nodes},
           {"T-joint", t_joint},
           {"wedge", wedge},
