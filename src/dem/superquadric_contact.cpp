@@ -60,9 +60,10 @@ Progress iterate(Frame& f, const Body<double, PowerA>& a, const Body<double, Pow
   for (int iteration = 0; iteration < limit; ++iteration) {
     f.pair.guard = iteration < kFastIterations ? 0.9 : kLateGuard;
     e = newton::evaluate(f.pair, a, b, f.x, f.y);
-    const bool small_step = e.step < tolerance.step * least && e.angle < tolerance.residual &&
-                            e.miss < tolerance.residual * least;
-    const bool flat = e.angle < kFlat && e.miss < kFlat * least;
+    const double close = tolerance.residual * tolerance.residual, step = tolerance.step * tolerance.step;
+    const bool small_step =
+        e.step2 < step * least * least && e.angle2 < close && e.miss2 < close * least * least;
+    const bool flat = e.angle2 < kFlat * kFlat && e.miss2 < kFlat * kFlat * least * least;
     if ((small_step || flat) && e.s > -tolerance.sigma * e.sigma) return Progress::done;
     newton::advance(f.pair, e, f.x, f.y);
   }

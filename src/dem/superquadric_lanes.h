@@ -2,6 +2,10 @@
 /// Doubles side by side, as wide as the processor's registers, for the kernels of superquadric_newton.h.
 /// Every lane's result depends on that lane alone.
 
+#if defined(__AVX512F__)
+#include <immintrin.h>
+#endif
+
 #include <cmath>
 
 namespace sluice::newton {
@@ -14,6 +18,12 @@ inline double absolute(double x) {
 }
 inline double root(double x) {
   return std::sqrt(x);
+}
+inline double reciprocal(double x) {
+  return 1 / x;
+}
+inline double reciprocal_root(double x) {
+  return 1 / std::sqrt(x);
 }
 inline bool any(bool mask) {
   return mask;
@@ -28,7 +38,7 @@ inline constexpr int kLanes = 2;
 #endif
 
 using Lanes = double __attribute__((vector_size(8 * kLanes)));
-using LaneMask = long long __attribute__((vector_size(8 * kLanes)));
+using LaneMask = decltype(Lanes{} < Lanes{});
 
 inline Lanes select(LaneMask mask, Lanes yes, Lanes no) {
   return mask ? yes : no;
@@ -40,6 +50,27 @@ inline Lanes root(Lanes x) {
   Lanes r;
   for (int k = 0; k < kLanes; ++k) r[k] = std::sqrt(x[k]);
   return r;
+}
+/// 1/x and 1/sqrt(x) for normal x > 0 (and x < 0), to one or two units in the last place: two Newton steps
+/// from the processor's 14 bits where it has them, since divisions are what these kernels would wait for.
+inline Lanes reciprocal(Lanes x) {
+#if defined(__AVX512F__)
+  // The masked form: gcc 12 warns of its own header in the other.
+  Lanes y = _mm512_maskz_rcp14_pd(0xff, x);
+  y = y + y * (1.0 - x * y);
+  return y + y * (1.0 - x * y);
+#else
+  return 1.0 / x;
+#endif
+}
+inline Lanes reciprocal_root(Lanes x) {
+#if defined(__AVX512F__)
+  Lanes y = _mm512_maskz_rsqrt14_pd(0xff, x);
+  y = y + 0.5 * y * (1.0 - x * y * y);
+  return y + 0.5 * y * (1.0 - x * y * y);
+#else
+  return 1.0 / root(x);
+#endif
 }
 inline bool any(LaneMask mask) {
   long long joined = 0;
@@ -59,21 +90,17 @@ Real smaller(const Real& a, const Real& b) {
   return select(a < b, a, b);
 }
 
-/// f^(-1/m) for |f - 1| <= kNearOne, by the series of log (through atanh) and exp; to rounding.
-inline constexpr double kNearOne = 1.0 / 16;
+/// (1 + e)^p for |e| <= kNearOne, by the binomial series; to rounding.
+inline constexpr double kNearOne = 1.0 / 64;
 template <class Real>
-Real inverse_root_near_one(const Real& f, const Real& m) {
-  const Real z = (f - 1.0) / (f + 1.0);
-  const Real q = z * z;
-  const Real log =
-      2.0 * z * (1.0 + q * (1.0 / 3 + q * (1.0 / 5 + q * (1.0 / 7 + q * (1.0 / 9 + q * (1.0 / 11))))));
-  const Real t = -log / m;
-  return 1.0 + t * (1.0 + t * (1.0 / 2 +
-                               t * (1.0 / 6 +
-                                    t * (1.0 / 24 + t * (1.0 / 120 + t * (1.0 / 720 + t * (1.0 / 5040)))))));
+Real power_near_one(const Real& e, const Real& p) {
+  Real sum = Real{} + 1.0;
+  for (int k = 9; k >= 0; --k) sum = 1.0 + (p - static_cast<double>(k)) * (e * (1.0 / (k + 1))) * sum;
+  return sum;
 }
-inline double inverse_root(double f, double m) {
-  return std::fabs(f - 1) <= kNearOne ? inverse_root_near_one(f, m) : std::pow(f, -1 / m);
+/// f^p.
+inline double power_of_sum(double f, double p) {
+  return std::fabs(f - 1) <= kNearOne ? power_near_one(f - 1, p) : std::pow(f, p);
 }
 
 /// x^y for x >= 1e-300 (smaller x count as that), |y log2 x| < 1000; relative error below 1e-15 times
@@ -105,17 +132,17 @@ inline Lanes power(Lanes x, Lanes y) {
   return exp * reinterpret_cast<Lanes>(scale);
 }
 
-inline Lanes inverse_root(Lanes f, Lanes m) {
-  const Lanes series = inverse_root_near_one(f, m);
+inline Lanes power_of_sum(Lanes f, Lanes p) {
+  const Lanes series = power_near_one(f - 1.0, p);
   const LaneMask near = absolute(f - 1.0) <= kNearOne;
   if (!any(~near)) return series;
-  return select(near, series, power(f, -1.0 / m));
+  return select(near, series, power(f, p));
 }
 
 /// u^(m-2) for whole m from 2 to 17, each lane its own.
 class LaneWholePower {
  public:
-  explicit LaneWholePower(Lanes m) : m_(m) {
+  explicit LaneWholePower(Lanes m) : m_(m), root_(-1.0 / m) {
     const LaneMask exponent = __builtin_convertvector(m, LaneMask) - 2;
     one_ = (exponent & 1) != 0;
     two_ = (exponent & 2) != 0;
@@ -124,6 +151,7 @@ class LaneWholePower {
     high_ = any((exponent & 12) != 0);
   }
   Lanes m() const { return m_; }
+  Lanes root_exponent() const { return root_; }
   Lanes operator()(Lanes u) const {
     const Lanes one = all_lanes(1.0);
     Lanes square = u * u;
@@ -136,7 +164,7 @@ class LaneWholePower {
   }
 
  private:
-  Lanes m_;
+  Lanes m_, root_;
   LaneMask one_, two_, four_, eight_;
   bool high_;
 };
@@ -144,12 +172,13 @@ class LaneWholePower {
 /// u^(m-2) for any m.
 class LaneAnyPower {
  public:
-  explicit LaneAnyPower(Lanes m) : m_(m) {}
+  explicit LaneAnyPower(Lanes m) : m_(m), root_(-1.0 / m) {}
   Lanes m() const { return m_; }
+  Lanes root_exponent() const { return root_; }
   Lanes operator()(Lanes u) const { return select(m_ == 2.0, all_lanes(1.0), power(u, m_ - 2.0)); }
 
  private:
-  Lanes m_;
+  Lanes m_, root_;
 };
 
 }  // namespace sluice::newton

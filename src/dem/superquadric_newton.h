@@ -44,7 +44,8 @@ struct Rotation {
   }
 };
 
-/// One body: inverse semi-axes and what raises to the power m - 2. `Power` has `Real m() const` and
+/// One body: inverse semi-axes and what raises to the power m - 2. `Power` has `Real m() const`,
+/// `root_exponent()` = -1/m, and
 /// `Real operator()(Real u) const` = u^(m-2) for u >= 0.
 template <class Real, class Power>
 struct Body {
@@ -79,10 +80,10 @@ SurfaceState<Real> to_surface(const Body<Real, Power>& body, Triple<Real>& x) {
   const Triple<Real> u{x.x * ia.x, x.y * ia.y, x.z * ia.z};
   const Triple<Real> p{body.power(absolute(u.x)), body.power(absolute(u.y)), body.power(absolute(u.z))};
   const Triple<Real> pu{p.x * u.x, p.y * u.y, p.z * u.z};
-  const Real scale = inverse_root(dot(pu, u), body.power.m());
+  const Real scale = power_of_sum(dot(pu, u), body.power.root_exponent());
   const Triple<Real> g{pu.x * ia.x, pu.y * ia.y, pu.z * ia.z};
-  const Real inverse = 1.0 / root(dot(g, g));
-  const Real factor = (body.power.m() - 1.0) * inverse / scale;
+  const Real inverse = reciprocal_root(dot(g, g));
+  const Real factor = (body.power.m() - 1.0) * inverse * reciprocal(scale);
   x = {x.x * scale, x.y * scale, x.z * scale};
   return {{g.x * inverse, g.y * inverse, g.z * inverse},
           {factor * p.x * ia.x * ia.x, factor * p.y * ia.y * ia.y, factor * p.z * ia.z * ia.z}};
@@ -93,11 +94,11 @@ template <class Real>
 struct Evaluation {
   Triple<Real> n, e1, e2;  ///< frame of A
   Real s;                  ///< n.w [m]
-  Real angle;              ///< |nB - nA|, tangential
-  Real miss;               ///< |wt| [m]
+  Real angle2;             ///< |nB - nA|^2, tangential
+  Real miss2;              ///< |wt|^2 [m2]
   Real sigma;              ///< the certificate's bound, > 0: holds where s > -sigma [m]
   Real a1, a2, b1, b2;     ///< step of x and y in (e1, e2) [m]
-  Real step;               ///< the longer of the two, not capped [m]
+  Real step2;              ///< the longer of the two squared, not capped [m2]
   Real turn1, turn2;       ///< change of the normal with the step
 };
 
@@ -105,7 +106,7 @@ struct Evaluation {
 template <class Real>
 void tangents(const Triple<Real>& n, Triple<Real>& e1, Triple<Real>& e2) {
   const Real sign = select(n.z < 0.0, Real{} - 1.0, Real{} + 1.0);
-  const Real a = -1.0 / (sign + n.z);
+  const Real a = -reciprocal(sign + n.z);
   const Real b = n.x * n.y * a;
   e1 = {1.0 + sign * n.x * n.x * a, sign * b, -sign * n.x};
   e2 = {b, sign + n.y * n.y * a, -n.y};
@@ -125,27 +126,30 @@ void solve_step(const Pair<Real>& pair, const Shape2<Real>& wa, const Shape2<Rea
   const Real pxx = wb.xx * wa.xx + wb.xy * wa.xy, pxy = wb.xx * wa.xy + wb.xy * wa.yy;
   const Real pyx = wb.xy * wa.xx + wb.yy * wa.xy, pyy = wb.xy * wa.xy + wb.yy * wa.yy;
   constexpr double tiny = std::numeric_limits<double>::min();
-  // det(S + s P) = c0 + c1 s + c2 s^2; 1/trace of each bounds the root from below where faces are flat.
-  const Real c0 = sxx * syy - sxy * sxy;
-  const Real c1 = sxx * pyy + syy * pxx - sxy * (pxy + pyx);
-  const Real c2 = pxx * pyy - pxy * pyx;
-  const Real disc = larger(c1 * c1 - 4.0 * c0 * c2, Real{});
-  const Real flat = 1.0 / (wa.xx + wa.yy + tiny) + 1.0 / (wb.xx + wb.yy + tiny);
-  e.sigma = larger(2.0 * c0 / (c1 + root(disc) + tiny), flat);
+  // 1/trace of each bounds the root of det(S + s P) = c0 + c1 s + c2 s^2 from below; enough for most.
+  e.sigma = reciprocal(wa.xx + wa.yy + tiny) + reciprocal(wb.xx + wb.yy + tiny);
+  const auto deep = e.s < -0.5 * e.sigma;
+  if (any(deep)) {
+    const Real c0 = sxx * syy - sxy * sxy;
+    const Real c1 = sxx * pyy + syy * pxx - sxy * (pxy + pyx);
+    const Real c2 = pxx * pyy - pxy * pyx;
+    const Real disc = larger(c1 * c1 - 4.0 * c0 * c2, Real{});
+    e.sigma = select(deep, larger(2.0 * c0 / (c1 + root(disc) + tiny), e.sigma), e.sigma);
+  }
   const Real se = larger(e.s, -pair.guard * e.sigma);
-  const Real level = 1e-13 / pair.least;
+  const Real level = 1e-13 * reciprocal(pair.least);
   const Real mxx = sxx + se * pxx + level, mxy = sxy + se * pxy;
   const Real myx = sxy + se * pyx, myy = syy + se * pyy + level;
   const Real h1 = wt[0] + 0.5 * se * dn[0], h2 = wt[1] + 0.5 * se * dn[1];
   const Real r1 = dn[0] + wb.xx * h1 + wb.xy * h2, r2 = dn[1] + wb.xy * h1 + wb.yy * h2;
-  const Real inverse = 1.0 / (mxx * myy - mxy * myx);
+  const Real inverse = reciprocal(mxx * myy - mxy * myx);
   e.a1 = (myy * r1 - mxy * r2) * inverse;
   e.a2 = (mxx * r2 - myx * r1) * inverse;
   e.turn1 = wa.xx * e.a1 + wa.xy * e.a2 - 0.5 * dn[0];
   e.turn2 = wa.xy * e.a1 + wa.yy * e.a2 - 0.5 * dn[1];
   e.b1 = e.a1 - wt[0] + se * e.turn1;
   e.b2 = e.a2 - wt[1] + se * e.turn2;
-  e.step = root(larger(e.a1 * e.a1 + e.a2 * e.a2, e.b1 * e.b1 + e.b2 * e.b2));
+  e.step2 = larger(e.a1 * e.a1 + e.a2 * e.a2, e.b1 * e.b1 + e.b2 * e.b2);
 }
 
 /// Moves x and y onto their surfaces and evaluates there.
@@ -156,13 +160,12 @@ Evaluation<Real> evaluate(const Pair<Real>& pair, const Body<Real, PowerA>& a, c
   const SurfaceState<Real> at_y = to_surface(b, y);
   const Triple<Real> outward = pair.rotation.forth(at_y.normal);
   Evaluation<Real> e;
-  // Normals that point alike cancel here; the direction of the centres breaks the tie.
-  constexpr double tie = 1e-12;
-  const Triple<Real> sum{at_x.normal.x - outward.x + tie * pair.d.x / pair.least,
-                         at_x.normal.y - outward.y + tie * pair.d.y / pair.least,
-                         at_x.normal.z - outward.z + tie * pair.d.z / pair.least};
-  const Real length = root(dot(sum, sum));
-  const Real inverse = 1.0 / larger(length, Real{} + 1e-30);
+  // Normals that point opposite ways cancel here; the direction of the centres breaks the tie.
+  const Real tie = 1e-12 * reciprocal(pair.least);
+  const Triple<Real> sum{at_x.normal.x - outward.x + tie * pair.d.x,
+                         at_x.normal.y - outward.y + tie * pair.d.y,
+                         at_x.normal.z - outward.z + tie * pair.d.z};
+  const Real inverse = reciprocal_root(larger(dot(sum, sum), Real{} + 1e-60));
   e.n = {sum.x * inverse, sum.y * inverse, sum.z * inverse};
   tangents(e.n, e.e1, e.e2);
   const Triple<Real> ry = pair.rotation.forth(y);
@@ -171,8 +174,8 @@ Evaluation<Real> evaluate(const Pair<Real>& pair, const Body<Real, PowerA>& a, c
   const Real dn[2] = {-dot(e.e1, outward) - dot(e.e1, at_x.normal),
                       -dot(e.e2, outward) - dot(e.e2, at_x.normal)};
   const Real wt[2] = {dot(e.e1, w), dot(e.e2, w)};
-  e.angle = root(dn[0] * dn[0] + dn[1] * dn[1]);
-  e.miss = root(wt[0] * wt[0] + wt[1] * wt[1]);
+  e.angle2 = dn[0] * dn[0] + dn[1] * dn[1];
+  e.miss2 = wt[0] * wt[0] + wt[1] * wt[1];
   const Shape2<Real> wa = shape_operator(at_x.curvature, e.e1, e.e2);
   const Shape2<Real> wb = shape_operator(at_y.curvature, pair.rotation.back(e.e1), pair.rotation.back(e.e2));
   solve_step(pair, wa, wb, dn, wt, e);
@@ -182,7 +185,8 @@ Evaluation<Real> evaluate(const Pair<Real>& pair, const Body<Real, PowerA>& a, c
 /// Takes the step, capped at 0.3 of the least semi-axis.
 template <class Real>
 void advance(const Pair<Real>& pair, const Evaluation<Real>& e, Triple<Real>& x, Triple<Real>& y) {
-  const Real cap = smaller(Real{} + 1.0, 0.3 * pair.least / larger(e.step, Real{} + 1e-300));
+  const Real longest = 0.3 * pair.least;
+  const Real cap = smaller(Real{} + 1.0, longest * reciprocal_root(larger(e.step2, Real{} + 1e-200)));
   const Real a1 = cap * e.a1, a2 = cap * e.a2, b1 = cap * e.b1, b2 = cap * e.b2;
   x = {x.x + a1 * e.e1.x + a2 * e.e2.x, x.y + a1 * e.e1.y + a2 * e.e2.y, x.z + a1 * e.e1.z + a2 * e.e2.z};
   const Triple<Real> move{b1 * e.e1.x + b2 * e.e2.x, b1 * e.e1.y + b2 * e.e2.y, b1 * e.e1.z + b2 * e.e2.z};
@@ -195,6 +199,7 @@ struct WholePower {
   double blockiness;
   std::uint32_t exponent;  ///< m - 2
   double m() const { return blockiness; }
+  double root_exponent() const { return -1 / blockiness; }
   double operator()(double u) const {
     double power = (exponent & 1u) != 0 ? u : 1.0;
     double square = u * u;
@@ -212,6 +217,7 @@ struct WholePower {
 struct AnyPower {
   double blockiness;
   double m() const { return blockiness; }
+  double root_exponent() const { return -1 / blockiness; }
   double operator()(double u) const { return std::pow(u, blockiness - 2); }
 };
 

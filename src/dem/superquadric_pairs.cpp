@@ -158,21 +158,20 @@ Solved iterate(Gathered& g) {
   const auto inverse = [](const LaneTriple& t) { return LaneTriple{1.0 / t.x, 1.0 / t.y, 1.0 / t.z}; };
   const Body<Lanes, Power> a{inverse(g.axes_a), Power(g.m_a)};
   const Body<Lanes, Power> b{inverse(g.axes_b), Power(g.m_b)};
-  const Lanes least = g.pair.least;
+  const Lanes least2 = g.pair.least * g.pair.least;
   Solved solved{};
   LaneTriple x = g.x, y = g.y;
   for (int iteration = 0; iteration < kIterations; ++iteration) {
     const Evaluation<Lanes> e = newton::evaluate(g.pair, a, b, x, y);
-    const LaneMask small_step =
-        (e.step < kStep * least) & (e.angle < kResidual) & (e.miss < kResidual * least);
-    const LaneMask flat = (e.angle < kFlat) & (e.miss < kFlat * least);
+    const LaneMask small_step = (e.step2 < kStep * kStep * least2) & (e.angle2 < kResidual * kResidual) &
+                                (e.miss2 < kResidual * kResidual * least2);
+    const LaneMask flat = (e.angle2 < kFlat * kFlat) & (e.miss2 < kFlat * kFlat * least2);
     const LaneMask now = (small_step | flat) & (e.s > -e.sigma) & ~solved.done;
     // The last step is taken in any case, to first order where it ends the iteration.
     newton::advance(g.pair, e, x, y);
     if (!any(now)) continue;
     const LaneTriple n = sum(e.n, sum(scaled(e.turn1, e.e1), scaled(e.turn2, e.e2)));
-    const Lanes length = newton::root(dot(n, n));
-    solved.normal = choose(now, scaled(1.0 / length, n), solved.normal);
+    solved.normal = choose(now, scaled(newton::reciprocal_root(dot(n, n)), n), solved.normal);
     solved.gap = newton::select(now, e.s, solved.gap);
     solved.x = choose(now, x, solved.x);
     solved.y = choose(now, y, solved.y);

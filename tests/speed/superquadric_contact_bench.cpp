@@ -113,7 +113,7 @@ void scalar_reference(Contacts& c, int pose) {
     newton::Evaluation<double> e;
     for (int iteration = 0; iteration < 20; ++iteration) {
       e = newton::evaluate(pair, body(a), body(b), x, y);
-      if (e.angle < 1e-10 && e.miss < 1e-10 * pair.least) break;
+      if (e.angle2 < 1e-20 && e.miss2 < 1e-20 * pair.least * pair.least) break;
       newton::advance(pair, e, x, y);
     }
     const Vec3 on_a(x.x, x.y, x.z), n(e.n.x, e.n.y, e.n.z);
