@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <cmath>
+
+#include "mpm/explicit_mpm.h"
+#include "mpm/spline_weights.h"
+
+namespace sluice {
+
+namespace {
+constexpr int most_planes = 6;      ///< that act on one point
+constexpr double stand_off = 1e-4;  ///< of a stopped point from its wall [cells]
+constexpr int most_path_hits = 3;   ///< a corner of three walls
+
+int tile_index(int local, int node) {
+  return (local & 3) + node % 3 + 6 * (((local >> 2) & 3) + node / 3 % 3) + 36 * ((local >> 4) + node / 9);
+}
+}  // namespace
+
+template <class Real>
+void ExplicitMpm<Real>::scatter_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil,
+                                          Node (&a)[4], Node* tile, WallImpulses& impulses) const {
+  const Vec3i base = layout_.cell_of(cell_key) - Vec3i::Ones();
+  const Vec3 x = position(p.x, cell_key);
+  Visibility seen;
+  field_->visibility(stencil, base, x, seen);
+  WallPlane plane;
+  if (field_->planes_of_point(stencil, x, &plane, 1) > 0) a[0][node_lane::near_wall] = p.mass;
+
+  const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
+  const int local = cell_key & 63;
+  for (int n = 0; n < 27; ++n) {
+    const int i = n % 3, j = n / 3 % 3, k = n / 9;
+    const Real w = wx.w[i] * wy.w[j] * wz.w[k];
+    Node lanes;
+    for (int r = 0; r < Node::registers; ++r)
+      lanes.part[r] = a[0].part[r] + wx.d[i] * a[1].part[r] + wy.d[j] * a[2].part[r] + wz.d[k] * a[3].part[r];
+    if (!(seen.hidden >> n & 1)) {
+      tile[tile_index(local, n)].add_scaled(w, lanes);
+      continue;
+    }
+    // The wall takes the stress and the weight that the hidden node would have carried.
+    Vec3 impulse = step_.dt * static_cast<double>(p.mass) * gravity_;
+    for (int r = 0; r < 3; ++r) impulse[r] += static_cast<double>(lanes[node_lane::change + r]);
+    impulses.add(field_->patch_wall(seen.patch[static_cast<std::size_t>(n)]),
+                 static_cast<double>(w) * impulse, layout_.node_position(base + Vec3i(i, j, k)));
+  }
+}
+
+template <class Real>
+void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil,
+                                         const NodeTile& tile, Gathered& g, WallImpulses& impulses) const {
+  using namespace node_lane;
+  const Vec3i base = layout_.cell_of(cell_key) - Vec3i::Ones();
+  const Vec3 x = position(p.x, cell_key);
+  const int local = cell_key & 63;
+  Visibility seen;
+  field_->visibility(stencil, base, x, seen);
+  if (seen.hidden == 0) {
+    gather(p, local, tile, g);
+    return;
+  }
+
+  const double h = config_.spacing;
+  const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
+  Node sum, sum_axis[3];
+  sum.clear();
+  for (Node& s : sum_axis) s.clear();
+  Real weight = 0, weight_moment[3] = {};
+  Real least = std::numeric_limits<Real>::max();
+  for (int n = 0; n < 27; ++n) {
+    if (seen.hidden >> n & 1) continue;
+    const int i = n % 3, j = n / 3 % 3, k = n / 9;
+    const Real w = wx.w[i] * wy.w[j] * wz.w[k];
+    const Real d[3] = {wx.d[i], wy.d[j], wz.d[k]};
+    const Node& node = tile.node[tile_index(local, n)];
+    sum.add_scaled(w, node);
+    for (int c = 0; c < 3; ++c) {
+      sum_axis[c].add_scaled(w * d[c], node);
+      weight_moment[c] += w * d[c];
+    }
+    weight += w;
+    least = std::min(least, node[fill]);
+  }
+
+  // Visible nodes; means of what only they know.
+  const Real per_weight = weight > 0 ? 1 / weight : Real(0);
+  g.bulk = sum[node_lane::mass];
+  g.fill = sum[fill] * per_weight;
+  g.dilation = weight > 0 ? sum[dilation] * per_weight : p.dilation;
+  g.least_fill = weight > 0 ? least : Real(0);
+  const double mean_bulk = static_cast<double>(g.bulk * per_weight);
+  Vec3 mean_change = step_.dt * gravity_;
+  for (int r = 0; r < 3; ++r) {
+    g.change[r] = sum[change + r];
+    g.velocity[r] = sum[velocity + r];
+    g.pressure[r] = sum[gradient + r] * per_weight;
+    g.centre[r] = (sum[centre + r] + weight_moment[r]) * per_weight;
+    g.bulk_moment[r] = sum_axis[r][node_lane::mass];
+    g.fill_moment[r] = sum_axis[r][fill] - g.fill * weight_moment[r];
+    for (int c = 0; c < 3; ++c) g.moment[3 * r + c] = sum_axis[c][change + r] + sum_axis[c][velocity + r];
+    if (weight > 0) mean_change[r] = static_cast<double>(sum[change + r] * per_weight);
+  }
+
+  // Hidden nodes: the point's own field, mirrored at the planes between.
+  WallPlane planes[most_planes];
+  const int plane_count = field_->planes_of_point(stencil, x, planes, most_planes);
+  const Vec3 v(p.v[0], p.v[1], p.v[2]);
+  Mat3 C;
+  for (int r = 0; r < 9; ++r) C(r / 3, r % 3) = static_cast<double>(p.C[r]);
+  const double share = static_cast<double>(step_.relax_velocity) * mean_bulk;
+  for (int n = 0; n < 27; ++n) {
+    if (!(seen.hidden >> n & 1)) continue;
+    const int i = n % 3, j = n / 3 % 3, k = n / 9;
+    const Vec3 d(wx.d[i], wy.d[j], wz.d[k]);
+    const double w = static_cast<double>(wx.w[i] * wy.w[j] * wz.w[k]);
+    Vec3 mirrored = h * d;
+    int used[most_planes], used_count = 0;
+    for (int q = 0; q < plane_count; ++q) {
+      const WallPlane& plane = planes[q];
+      const double beyond = plane.normal.dot(mirrored) - plane.distance;
+      if (beyond <= 0) continue;
+      if (p.dilation >= 0 && v.dot(plane.normal) < 0) continue;  // leaves the wall, nothing holds it
+      mirrored -= 2 * beyond * plane.normal;
+      used[used_count++] = q;
+    }
+    Vec3 ghost = v + C * mirrored, ghost_change = mean_change;
+    if (used_count > 0 && config_.wall_slip == WallSlip::no_slip) {
+      const WallPlane& plane = planes[used[0]];
+      ghost = 2 * field_->surface_velocity(plane.wall, x + plane.distance * plane.normal) - ghost;
+      ghost_change = -ghost_change;
+    } else {
+      for (int q = used_count - 1; q >= 0; --q) {
+        const Vec3& normal = planes[used[q]].normal;
+        ghost -= 2 * ghost.dot(normal) * normal;
+        ghost_change -= 2 * ghost_change.dot(normal) * normal;
+      }
+    }
+    for (int r = 0; r < 3; ++r) {
+      const double whole = ghost_change[r] + mean_bulk * ghost[r];
+      g.change[r] += static_cast<Real>(w * ghost_change[r]);
+      g.velocity[r] += static_cast<Real>(w * mean_bulk * ghost[r]);
+      g.bulk_moment[r] += static_cast<Real>(w * mean_bulk * d[r]);
+      for (int c = 0; c < 3; ++c) g.moment[3 * r + c] += static_cast<Real>(w * whole * d[c]);
+    }
+    g.bulk += static_cast<Real>(w * mean_bulk);
+    const Vec3 given = ghost_change + share * (ghost - v - h * (C * d));
+    impulses.add(field_->patch_wall(seen.patch[static_cast<std::size_t>(n)]),
+                 -static_cast<double>(p.mass) * w * given, layout_.node_position(base + Vec3i(i, j, k)));
+  }
+}
+
+/// No path crosses a wall: the point stops at the first one that its path meets.
+template <class Real>
+void ExplicitMpm<Real>::stop_at_walls(Point& p, std::int32_t cell_key, std::int32_t stencil,
+                                      WallImpulses& impulses) const {
+  const double h = config_.spacing;
+  const Vec3 start = position(p.before, cell_key);
+  const Vec3 corner = layout_.node_position(layout_.cell_of(cell_key));
+  for (int hits = 0; hits <= most_path_hits; ++hits) {
+    const auto hit = field_->first_hit(stencil, start, position(p.x, cell_key));
+    if (!hit) return;
+    if (hits == most_path_hits) break;
+    const Vec3 v(p.v[0], p.v[1], p.v[2]);
+    const double inward = v.dot(hit->normal);
+    if (inward < 0) {
+      for (int r = 0; r < 3; ++r) p.v[r] -= static_cast<Real>(inward * hit->normal[r]);
+      impulses.add(hit->wall, static_cast<double>(p.mass) * inward * hit->normal, hit->point);
+      impulses.add_impact(hit->wall, 0.5 * static_cast<double>(p.mass) * inward * inward);
+    }
+    const Vec3 stopped = (hit->point + stand_off * h * hit->normal - corner) / h;
+    for (int r = 0; r < 3; ++r) p.x[r] = quantised(static_cast<Real>(stopped[r]));
+  }
+  for (int r = 0; r < 3; ++r) p.x[r] = p.before[r];
+}
+
+template void ExplicitMpm<float>::scatter_near_wall(const Point&, std::int32_t, std::int32_t, Node (&)[4],
+                                                    Node*, WallImpulses&) const;
+template void ExplicitMpm<float>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
+                                                   Gathered&, WallImpulses&) const;
+template void ExplicitMpm<float>::stop_at_walls(Point&, std::int32_t, std::int32_t, WallImpulses&) const;
+template void ExplicitMpm<double>::scatter_near_wall(const Point&, std::int32_t, std::int32_t, Node (&)[4],
+                                                     Node*, WallImpulses&) const;
+template void ExplicitMpm<double>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
+                                                    Gathered&, WallImpulses&) const;
+template void ExplicitMpm<double>::stop_at_walls(Point&, std::int32_t, std::int32_t, WallImpulses&) const;
+
+}  // namespace sluice

@@ -1,0 +1,86 @@
+#pragma once
+/// The sparse grid: node data of the blocks that points reach in this step.
+///
+/// Blocks keep their slot while they stay active, so that what is held per node (void fraction) and what
+/// belongs to the place (open fraction beside walls) stays with them.
+
+#include <functional>
+#include <vector>
+
+#include "mpm/block_layout.h"
+#include "mpm/lanes.h"
+#include "mpm/point_store.h"
+
+namespace sluice {
+
+/// Lanes of a node. After the scatter: sums. After points_to_grid: what is named first; after walls: second.
+namespace node_lane {
+constexpr int velocity = 0;    ///< momentum -> v before forces [m/s] -> the same times `bulk`
+constexpr int mass = 3;        ///< [kg] -> bulk: 1 in bulk water, 0 in spray
+constexpr int change = 4;      ///< impulse of stresses -> change of v by stresses and gravity -> by all [m/s]
+constexpr int fill = 7;        ///< volume [m3] -> over the open space
+constexpr int centre = 8;      ///< sum m (x_p - x_i) -> mean of it [cells]
+constexpr int dilation = 11;   ///< sum m (J - 1) -> mean
+constexpr int gradient = 12;   ///< sum V 4/h2 w d [m2] -> change of v by pressure alone [m/s]
+constexpr int near_wall = 15;  ///< mass of points beside walls -> its share -> mass [kg]
+}  // namespace node_lane
+
+template <class Real>
+class NodeBlocks {
+ public:
+  explicit NodeBlocks(const BlockLayout& layout);
+
+  /// Makes the blocks that the points reach active, and no others.
+  /// @param prepare  called for each block that was not active before: fill its open fractions
+  void activate(const std::vector<PointBlock>& blocks, const std::function<void(std::int32_t slot)>& prepare);
+
+  /// Makes exactly these blocks (ascending) active, as after loading a saved state.
+  void restore(const std::vector<std::int32_t>& blocks,
+               const std::function<void(std::int32_t slot)>& prepare);
+
+  const std::vector<std::int32_t>& active() const { return active_; }  ///< blocks, ascending
+  std::int32_t slot_of(std::int32_t block) const { return slot_[static_cast<std::size_t>(block)]; }
+  std::int32_t block_of(std::int32_t slot) const { return block_[static_cast<std::size_t>(slot)]; }
+
+  Lanes<Real>* nodes(std::int32_t slot) {
+    return &data_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  const Lanes<Real>* nodes(std::int32_t slot) const {
+    return &data_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  Real* open(std::int32_t slot) { return &open_[static_cast<std::size_t>(slot) * BlockLayout::nodes]; }
+  const Real* open(std::int32_t slot) const {
+    return &open_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  Real* void_fraction(std::int32_t slot) {
+    return &void_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  const Real* void_fraction(std::int32_t slot) const {
+    return &void_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  /// Record of walls (WallField::stencil) per cell of a block.
+  std::int32_t* stencil(std::int32_t slot) {
+    return &stencil_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  const std::int32_t* stencil(std::int32_t slot) const {
+    return &stencil_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+
+  std::size_t memory_bytes() const;
+
+ private:
+  void replace_active(const std::function<void(std::int32_t slot)>& prepare);
+
+  const BlockLayout* layout_;
+  std::vector<std::int32_t> slot_;   ///< per block of the domain
+  std::vector<std::int32_t> block_;  ///< per slot
+  std::vector<std::int32_t> free_;
+  std::vector<std::int32_t> active_, wanted_;
+  std::vector<std::uint32_t> mark_;  ///< per block: step at which it was last wanted
+  std::uint32_t step_ = 0;
+  std::vector<Lanes<Real>> data_;
+  std::vector<Real> open_, void_;
+  std::vector<std::int32_t> stencil_;
+};
+
+}  // namespace sluice

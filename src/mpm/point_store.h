@@ -1,0 +1,126 @@
+#pragma once
+/// The material points: hot records sorted by block and cell, cold columns beside them.
+///
+/// Points move every step but are re-sorted only when enough of them left their block. Until then each
+/// point is either a resident of the block whose bin it lies in, or a stray, listed under the block it
+/// is in now. New points wait unsorted at the end and are strays; removed ones keep their place with the
+/// key `none` until the next sort. All orders are functions of what is stored, never of the threads.
+
+#include <span>
+#include <vector>
+
+#include "base/state_archive.h"
+#include "mpm/block_layout.h"
+
+namespace sluice {
+
+/// What a step reads and writes of one point.
+template <class Real>
+struct MaterialPoint {
+  Real x[3];           ///< from the nearest node [cells], -0.5..0.5, a multiple of the position quantum
+  Real before[3];      ///< same, at the start of the last step, from the nearest node of now [cells]
+  Real v[3];           ///< [m/s]
+  Real dilation;       ///< J - 1: keeps its digits where J is nearly 1
+  Real C[9];           ///< affine velocity, row-major: C[3 r + c] = d v_r / d x_c [1/s]
+  Real mass;           ///< [kg]
+  Real volume;         ///< at rest [m3]
+  Real viscosity;      ///< [Pa s]
+  Real void_fraction;  ///< of the mixture around it, 1 without rocks
+  Real fill;           ///< water per space open to it, at the last step
+};
+
+/// Rounds a position to the quantum, a multiple of 2^-22 cells in float: changing cells is then exact.
+/// @pre |x| < 1 [cells]: 3 + x lies in [2, 4), whose floats are that far apart
+template <class Real>
+Real quantised(Real x) {
+  return (x + Real(3)) - Real(3);
+}
+
+template <class Real>
+struct StateTraits<MaterialPoint<Real>> {
+  static constexpr Scalar scalar = StateTraits<Real>::scalar;
+  static constexpr std::size_t count = 24;
+};
+
+/// A block with points: residents [begin, end) of the store, then strays [stray_begin, stray_end) of the
+/// list of strays. `reach` has bit (dx+1) + 3 (dy+1) + 9 (dz+1) set when a stencil reaches that neighbour.
+struct PointBlock {
+  std::int32_t block = BlockLayout::none;
+  std::uint32_t begin = 0, end = 0;
+  std::uint32_t stray_begin = 0, stray_end = 0;
+  std::uint32_t reach = 0;
+  std::uint32_t count() const { return end - begin + stray_end - stray_begin; }
+};
+
+template <class Real>
+class PointStore {
+ public:
+  using Point = MaterialPoint<Real>;
+
+  explicit PointStore(const BlockLayout& layout);
+
+  std::size_t count() const { return points.size() - dead_; }
+  std::size_t slots() const { return points.size(); }  ///< live and dead
+  bool alive(std::size_t slot) const { return key[slot] != BlockLayout::none; }
+
+  void add(const Point& point, std::int32_t cell_key, std::uint64_t point_id, double point_mass,
+           double fines);
+  void remove(std::size_t slot);
+
+  /// Finds the blocks that have points, sorting first when too many points are strays.
+  void bin();
+  const std::vector<PointBlock>& blocks() const { return blocks_; }
+  /// Slot of the n-th point of a block: residents (check `resident`), then strays.
+  std::uint32_t stray(std::uint32_t n) const { return strays_[n]; }
+  bool resident(std::uint32_t slot, std::int32_t block) const { return key[slot] >> 6 == block; }
+  /// Index into blocks() or `none`.
+  std::int32_t index_of_block(std::int32_t block) const {
+    return index_of_block_[static_cast<std::size_t>(block)];
+  }
+
+  /// Calls body(slot) for each point of a block, in the fixed order.
+  template <class Body>
+  void for_each(const PointBlock& block, const Body& body) const {
+    const std::uint32_t residents = block.end - block.begin;
+    const std::uint32_t all = residents + block.stray_end - block.stray_begin;
+    for (std::uint32_t n = 0; n < all; ++n) {
+      const std::uint32_t slot = n < residents ? block.begin + n : strays_[block.stray_begin + n - residents];
+      if (n < residents && key[slot] >> 6 != block.block) continue;
+      body(slot);
+    }
+  }
+
+  std::size_t memory_bytes() const;
+  void exchange(StateArchive& archive);
+
+  std::vector<Point> points;
+  std::vector<std::int32_t> key;  ///< cell, `none` for a removed point
+  std::vector<std::uint64_t> id;
+  std::vector<double> mass;   ///< as it came in [kg]
+  std::vector<double> fines;  ///< as it came in [kg]; empty while all are 0
+
+ private:
+  void find_strays();
+  void list_strays();
+  void sort();
+
+  const BlockLayout* layout_;
+  std::vector<std::int32_t> bin_block_;   ///< sorted: block of each bin
+  std::vector<std::uint32_t> bin_begin_;  ///< #bins + 1; what lies beyond the last is unsorted
+  std::size_t dead_ = 0;
+
+  // Scratch of a step.
+  std::vector<PointBlock> blocks_;
+  std::vector<std::int32_t> index_of_block_;
+  std::vector<std::uint32_t> strays_;
+  std::vector<std::vector<std::uint32_t>> strays_of_bin_;
+  std::vector<std::uint32_t> reach_of_bin_;
+  std::vector<std::uint32_t> place_;
+  std::vector<Point> spare_points_;
+  std::vector<std::int32_t> spare_key_;
+  std::vector<std::uint64_t> spare_id_;
+  std::vector<double> spare_column_;
+  std::array<std::uint32_t, 64> reach_of_cell_{};  ///< for blocks of full width
+};
+
+}  // namespace sluice

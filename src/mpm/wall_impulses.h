@@ -1,0 +1,47 @@
+#pragma once
+/// Impulses on walls, gathered by one block's work and added up in block order afterwards.
+
+#include <vector>
+
+#include "base/load.h"
+
+namespace sluice {
+
+class WallImpulses {
+ public:
+  void clear() { entries_.clear(); }
+
+  /// @param impulse  on the wall [N s], at the point `at` [m]
+  void add(int wall, const Vec3& impulse, const Vec3& at) {
+    WallLoad& load = of(wall);
+    load.impulse += impulse;
+    load.angular_impulse += at.cross(impulse);
+  }
+  void add_impact(int wall, double energy) { of(wall).impact_energy += energy; }
+  void add_sliding(int wall, double energy) { of(wall).sliding_energy += energy; }
+
+  void pour_into(std::vector<WallLoad>& loads) const {
+    for (const Entry& e : entries_) {
+      WallLoad& load = loads[static_cast<std::size_t>(e.wall)];
+      load.impulse += e.load.impulse;
+      load.angular_impulse += e.load.angular_impulse;
+      load.sliding_energy += e.load.sliding_energy;
+      load.impact_energy += e.load.impact_energy;
+    }
+  }
+
+ private:
+  struct Entry {
+    int wall = -1;
+    WallLoad load;
+  };
+  WallLoad& of(int wall) {
+    for (Entry& e : entries_)
+      if (e.wall == wall) return e.load;
+    entries_.push_back({wall, {}});
+    return entries_.back().load;
+  }
+  std::vector<Entry> entries_;
+};
+
+}  // namespace sluice

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "mpm/explicit_mpm.h"
+#include "mpm/spline_weights.h"
+
+namespace sluice {
+
+namespace {
+/// Fill over which a node turns from spray (own velocities) to bulk (shared velocity).
+constexpr double spray_below = 0.1, bulk_above = 0.3;
+
+/// Share of the wall's area that a node at s cells from it stands for, so that the nodes' and their hidden
+/// mirror's impulses add up to the stress on the area. Films thinner than a cell spread over the nodes by
+/// the spline; deep water is held at the first layer alone.
+/// @param filled  fluid volume of the node [cells]
+double film_share(double s, double filled) {
+  const double spline = quadratic_spline(s);
+  if (spline <= 0) return 0;
+  const double visible = 1 - spline_beyond(s);
+  const double hidden = s < 1 ? spline_beyond(1 - s) + spline_beyond(2 - s) : 0.0;
+  const double deep = s < 1 ? visible / (visible + hidden) : 0.0;
+  const double thickness = std::min(1.0, filled / spline);  // of the film [cells]
+  return (1 - thickness) * spline + thickness * deep;
+}
+
+template <class Real>
+Vec3 vector_at(const Lanes<Real>& node, int lane) {
+  return {static_cast<double>(node[lane]), static_cast<double>(node[lane + 1]),
+          static_cast<double>(node[lane + 2])};
+}
+
+template <class Real>
+void add_to(Lanes<Real>& node, int lane, const Vec3& v) {
+  for (int r = 0; r < 3; ++r) node[lane + r] += static_cast<Real>(v[r]);
+}
+}  // namespace
+
+template <class Real>
+void ExplicitMpm<Real>::walls(double dt) {
+  step_.dt = dt;
+  const std::vector<std::int32_t>& active = grid_.active();
+  parallel_for(
+      active.size(),
+      [&](std::size_t b) { wall_block(grid_.slot_of(active[b]), node_begin_[b], impulses_[b]); }, 4);
+  if (field_) pour_loads(active.size());
+}
+
+template <class Real>
+void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallImpulses& impulses) {
+  using namespace node_lane;
+  const double h = config_.spacing;
+  const double cell = h * h * h;
+  const Vec3i place = BlockLayout::edge * layout_.block_place(grid_.block_of(slot));
+  const Real spray = static_cast<Real>(spray_below),
+             ramp = static_cast<Real>(1.0 / (bulk_above - spray_below));
+  const Real gravity_change[3] = {static_cast<Real>(step_.dt * gravity_.x()),
+                                  static_cast<Real>(step_.dt * gravity_.y()),
+                                  static_cast<Real>(step_.dt * gravity_.z())};
+  Node* nodes = grid_.nodes(slot);
+  for (int n = 0; n < BlockLayout::nodes; ++n) {
+    Node& node = nodes[n];
+    if (node[mass] == 0) continue;
+    Vec3 pushed = Vec3::Zero();
+    if (!impulse_.empty()) {
+      pushed = impulse_[first++] / static_cast<double>(node[mass]);
+      add_to(node, change, pushed);
+    }
+    std::span<const WallPlane> planes;
+    Vec3 at = Vec3::Zero();
+    double volume = 0;
+    if (field_) {
+      const Vec3i where = place + Vec3i(n & 3, (n >> 2) & 3, n >> 4);
+      planes = field_->planes_of_node(where);
+      if (!planes.empty()) {
+        at = layout_.node_position(where);
+        volume = static_cast<double>(node[fill] * grid_.open(slot)[n] * grid_.void_fraction(slot)[n]) * cell;
+        close_pressure(node, volume, planes, at, impulses);
+      }
+    }
+    const Real node_mass = node[mass];
+    const Real chi_mass = node[near_wall];
+    for (int r = 0; r < 3; ++r)
+      node[gradient + r] = node[change + r] - gravity_change[r] - static_cast<Real>(pushed[r]);
+    if (!planes.empty()) {
+      node[near_wall] = chi_mass;
+      hold_at_walls(node, volume, planes, at, impulses);
+    }
+    const Real bulk = std::clamp((node[fill] - spray) * ramp, Real(0), Real(1));
+    for (int r = 0; r < 3; ++r) node[velocity + r] *= bulk;
+    node[mass] = bulk;
+    node[near_wall] = node_mass;
+  }
+}
+
+/// Near a wall the kernel is cut off and sum p grad w does not vanish: the wall pushes back with the
+/// pressure at its own place.
+template <class Real>
+void ExplicitMpm<Real>::close_pressure(Node& node, double volume, std::span<const WallPlane> planes,
+                                       const Vec3& at, WallImpulses& impulses) const {
+  using namespace node_lane;
+  const double m = static_cast<double>(node[mass]);
+  const double density = volume > 0 ? m / volume : config_.fluid.density;
+  const double e = static_cast<double>(node[dilation]);
+  const double mean_pressure = -density * sound_speed_ * sound_speed_ * e / (1 + e);
+  if (!(mean_pressure > 0)) return;
+  const double chi = static_cast<double>(node[near_wall]) / m;
+  const Vec3 centre_offset = config_.spacing * vector_at(node, centre);  // of the water from the node
+  Vec3 c = vector_at(node, gradient);
+  for (const WallPlane& plane : planes) {
+    const double cn = c.dot(plane.normal);
+    if (cn <= 0) continue;
+    const double at_wall =
+        std::max(0.0, mean_pressure + density * gravity_.dot(plane.distance * plane.normal - centre_offset));
+    const Vec3 impulse = -step_.dt * chi * at_wall * cn * plane.normal;
+    add_to(node, change, impulse / m);
+    impulses.add(plane.wall, -impulse, at + plane.distance * plane.normal);
+    c -= cn * plane.normal;
+  }
+}
+
+/// No flow into walls, and friction along them.
+template <class Real>
+void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, std::span<const WallPlane> planes,
+                                      const Vec3& at, WallImpulses& impulses) const {
+  using namespace node_lane;
+  const double h = config_.spacing;
+  const double m = static_cast<double>(node[mass]);
+  const double chi = static_cast<double>(node[near_wall]) / m;
+  const bool pressed = node[dilation] < 0;
+  Vec3 v = vector_at(node, velocity) + vector_at(node, change);
+  const Vec3 before = v;
+  for (const WallPlane& plane : planes) {
+    const Vec3 contact = at + plane.distance * plane.normal;
+    const Vec3 surface = field_->surface_velocity(plane.wall, contact);
+    const double s = plane.distance / h;
+    const double hold = chi * 2 * spline_beyond(s);
+    const double vn = v.dot(plane.normal);
+    Vec3 change_here = Vec3::Zero();
+    if (vn > 0 || pressed) {
+      change_here = -hold * vn * plane.normal;
+      impulses.add_impact(plane.wall, std::max(0.0, 0.5 * m * vn * vn * (1 - (1 - hold) * (1 - hold))));
+    }
+    const Vec3 sliding = v - surface - (v - surface).dot(plane.normal) * plane.normal;
+    double kept = 1;
+    if (config_.wall_slip == WallSlip::no_slip) {
+      kept = 1 - hold;
+    } else if (config_.wall_slip == WallSlip::turbulent_film) {
+      // Stress rho f/8 |u| u on the wall area that this node stands for; implicit, so never beyond rest.
+      const double density = volume > 0 ? m / volume : config_.fluid.density;
+      const double rate =
+          density * config_.film_friction / 8 * h * h * film_share(s, volume / (h * h * h)) / m;
+      kept = 1 / (1 + chi * rate * step_.dt * sliding.norm());
+    }
+    if (kept != 1) {
+      change_here -= (1 - kept) * sliding;
+      impulses.add_sliding(plane.wall, 0.5 * m * sliding.squaredNorm() * (1 - kept * kept));
+    }
+    impulses.add(plane.wall, -m * change_here, contact);
+    v += change_here;
+  }
+  add_to(node, change, v - before);
+}
+
+template void ExplicitMpm<float>::walls(double);
+template void ExplicitMpm<double>::walls(double);
+
+}  // namespace sluice
