@@ -18,8 +18,6 @@ struct FeedClock {
 };
 
 /// A mass as both the single and the double path of a fluid store it [kg].
-inline double stored_mass(double mass) {
-  return static_cast<double>(static_cast<float>(mass));
-}
+double stored_mass(double mass);
 
 }  // namespace sluice
