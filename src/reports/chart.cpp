@@ -104,7 +104,8 @@ std::string series_colour(std::size_t k) {
 }
 
 std::vector<double> round_ticks(double low, double high) {
-  const double span = high > low ? high - low : 1;
+  if (high <= low) high = low + 1;
+  const double span = high - low;
   const double ten = std::pow(10, std::floor(std::log10(span / 5)));
   double step = 10 * ten;
   for (const double s : {1.0, 2.0, 2.5, 5.0}) {

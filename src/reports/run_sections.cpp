@@ -134,7 +134,7 @@ PageSection view_section(const RunResults& run) {
       fmt::format("The last state, at t = {} s. Drag to turn, wheel to zoom, right button to move.",
                   number(run.view->time, 4));
   if (const auto& water = run.view->water; water && water->stride > 1)
-    note += fmt::format(" To keep the page small, {} of {} water points are shown (every {}th).",
+    note += fmt::format(" To keep the page small, {} of {} water points are shown (one in {}).",
                         count(static_cast<double>(water->count())), count(static_cast<double>(water->total)),
                         water->stride);
   const double fastest = speed_scale(*run.view).fastest;

@@ -67,7 +67,7 @@ export class SceneView {
     if (from === 'top') away.addScaledVector(this.up, 1).addScaledVector(along, 0.001);
     const centre = this.bounds.getCenter(new THREE.Vector3());
     const radius = 0.5 * this.bounds.getSize(new THREE.Vector3()).length();
-    const distance = radius / Math.sin(THREE.MathUtils.degToRad(15)) * Math.max(0.82, 0.9 / this.camera.aspect);
+    const distance = radius / Math.sin(THREE.MathUtils.degToRad(15)) * Math.max(0.95, 1 / this.camera.aspect);
     this.camera.position.copy(centre).addScaledVector(away.normalize(), distance);
     this.camera.near = distance / 200;
     this.camera.far = distance * 10;
