@@ -55,11 +55,9 @@ RollingConstants rolling_constants(double rolling, double radius_effective, doub
           arm * std::max(0.0, normal_force)};
 }
 
-Vec3 rolling_torque(const RollingConstants& c, const Vec3& n, const Vec3& spin, double dt, Vec3& turned) {
-  const Vec3 rolling = spin - spin.dot(n) * n;
-  turn_into_plane(turned, n);
-  turned += rolling * dt;
-  Vec3 torque = c.stiffness * turned + c.damping * rolling;
+Vec3 rolling_torque(const RollingConstants& c, const Vec3& spin, double dt, Vec3& turned) {
+  turned += spin * dt;
+  Vec3 torque = c.stiffness * turned + c.damping * spin;
   const double size2 = torque.squaredNorm();
   if (size2 > c.limit * c.limit) {
     // Plastic: the spring alone may hold the limit, the dashpot adds nothing once it rolls.

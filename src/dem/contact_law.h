@@ -108,8 +108,9 @@ struct RollingConstants {
 RollingConstants rolling_constants(double rolling, double radius_effective, double k_n, double inertia,
                                    double normal_force);
 
-/// Torque on the first body [N m]; `turned` [rad] is in and out.
+/// Torque on the first body [N m]; `turned` [rad] is in and out. Spinning about the normal is resisted
+/// like rolling: a single point would otherwise let a flat rock spin on its face for ever.
 /// @param spin  angular velocity of the first body relative to the second [rad/s]
-Vec3 rolling_torque(const RollingConstants& c, const Vec3& n, const Vec3& spin, double dt, Vec3& turned);
+Vec3 rolling_torque(const RollingConstants& c, const Vec3& spin, double dt, Vec3& turned);
 
 }  // namespace sluice

@@ -47,18 +47,21 @@ void DemSystem::Implementation::exchange_rocks(StateArchive& archive) {
 
 void DemSystem::Implementation::exchange_tallies(StateArchive& archive) {
   std::vector<std::array<double, 11>> sums;
-  std::vector<std::array<double, 8>> loads;
+  std::vector<std::array<double, 14>> loads;
   for (const DemChunk& c : chunks) {
     std::array<double, 11> row{c.lost_normal,  c.lost_friction, c.wall_work, c.fluid_work,
                                c.mass_seconds, c.overlap_most,  c.elastic,   static_cast<double>(c.contacts)};
     put(row, 8, c.fluid_impulse);
     sums.push_back(row);
-    for (const WallLoad& load : c.loads) {
-      std::array<double, 8> flat{};
+    for (std::size_t w = 0; w < c.loads.size(); ++w) {
+      const WallLoad& load = c.loads[w];
+      std::array<double, 14> flat{};
       put(flat, 0, load.impulse);
       put(flat, 3, load.angular_impulse);
       flat[6] = load.sliding_energy;
       flat[7] = load.impact_energy;
+      put(flat, 8, c.rates[w].impulse);
+      put(flat, 11, c.rates[w].angular_impulse);
       loads.push_back(flat);
     }
   }
@@ -84,6 +87,7 @@ void DemSystem::Implementation::exchange_tallies(StateArchive& archive) {
     for (std::size_t w = 0; w < walls.size(); ++w) {
       const auto& flat = loads[c * walls.size() + w];
       chunk.loads.push_back({take(flat, 0), take(flat, 3), flat[6], flat[7]});
+      chunk.rates.push_back({take(flat, 8), take(flat, 11), 0, 0});
     }
   }
 }

@@ -52,7 +52,8 @@ struct DemChunk {
   double overlap_most = 0;                                                   ///< of the radius
   std::vector<WallLoad> loads;                                               ///< one per wall
   // of the last step
-  double elastic = 0;  ///< [J]
+  std::vector<WallLoad> rates;  ///< force [N] and torque [N m] on each wall, in the place of the impulses
+  double elastic = 0;           ///< [J]
   std::uint64_t contacts = 0;
   double moved2 = 0;             ///< square of the largest distance from where the pairs were listed [m2]
   std::vector<double> overlaps;  ///< of the radius, when sampled
@@ -130,10 +131,12 @@ struct DemSystem::Implementation {
   }
 
   void step(double t, double dt);
+  void prepare_chunks(double dt);
   void drift(const StepTime& time);
   void list_pairs();
   void contacts(const StepTime& time);
   void finish(const StepTime& time);
+  void give_half_to_walls(double dt);
   void kick(std::size_t i, double seconds);
 
   void pairs_of(DemChunk& chunk, std::size_t i, const StepTime& time);

@@ -16,24 +16,14 @@ constexpr double longest_move = 0.5;  // of the radius in one step: beyond it co
 
 void DemSystem::Implementation::step(double t, double dt) {
   const StepTime time{t, dt, steps % steps_per_sample == 0};
-  const std::size_t n = count();
-  const std::size_t used = (n + chunk_length - 1) / chunk_length;
-  if (chunks.size() < used) {
-    chunks.resize(used);
-    for (DemChunk& chunk : chunks) chunk.loads.resize(walls.size());
-  }
-  for (std::size_t c = 0; c < chunks.size(); ++c) {
-    chunks[c].elastic = chunks[c].moved2 = 0;
-    chunks[c].contacts = 0;
-    chunks[c].overlaps.clear();
-  }
-
+  prepare_chunks(dt);
   drift(time);
   double moved2 = 0;
   for (const DemChunk& chunk : chunks) moved2 = std::max(moved2, chunk.moved2);
   if (!list_valid || moved2 >= 0.25 * skin * skin) list_pairs();
   contacts(time);
   finish(time);
+  give_half_to_walls(dt);
 
   if (time.sampled)
     for (const DemChunk& chunk : chunks)
@@ -44,6 +34,28 @@ void DemSystem::Implementation::step(double t, double dt) {
       }
   ++steps;
   now = t + dt;
+}
+
+void DemSystem::Implementation::prepare_chunks(double dt) {
+  // The rocks' first half kick is with the forces of the last step: so is the walls'.
+  give_half_to_walls(dt);
+  const std::size_t used = (count() + chunk_length - 1) / chunk_length;
+  if (chunks.size() < used) chunks.resize(used);
+  for (DemChunk& chunk : chunks) {
+    chunk.elastic = chunk.moved2 = 0;
+    chunk.contacts = 0;
+    chunk.overlaps.clear();
+    chunk.loads.resize(walls.size());
+    chunk.rates.assign(walls.size(), {});
+  }
+}
+
+void DemSystem::Implementation::give_half_to_walls(double dt) {
+  for (DemChunk& chunk : chunks)
+    for (std::size_t w = 0; w < chunk.rates.size(); ++w) {
+      chunk.loads[w].impulse += 0.5 * dt * chunk.rates[w].impulse;
+      chunk.loads[w].angular_impulse += 0.5 * dt * chunk.rates[w].angular_impulse;
+    }
 }
 
 void DemSystem::Implementation::kick(std::size_t i, double seconds) {

@@ -93,7 +93,7 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, std::size_t i, std::
         rolling_constants(pair_law.rolling, radius_a * radius_b / (radius_a + radius_b), k_n,
                           about_a * about_b / (about_a + about_b), contact.normal);
     const Vec3 spin = a.w - b.w;
-    const Vec3 moment = rolling_torque(rolling, touch.normal, spin, time.dt, pairs.turned[p]);
+    const Vec3 moment = rolling_torque(rolling, spin, time.dt, pairs.turned[p]);
     own_torque[i] += moment;
     torque_b -= moment;
     chunk.lost_friction -= moment.dot(spin) * time.dt;

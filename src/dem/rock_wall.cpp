@@ -53,7 +53,7 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
     const double radius = 0.5 * body.size;
     const RollingConstants rolling =
         rolling_constants(pair_law.rolling, radius, k_n, 1.4 * body.mass * radius * radius, contact.normal);
-    moment = rolling_torque(rolling, touch.normal, body.w, time.dt, touch.turned);
+    moment = rolling_torque(rolling, body.w, time.dt, touch.turned);
     lost_rolling = -moment.dot(body.w) * time.dt;
   }
   own_force[i] += contact.force;
@@ -64,8 +64,9 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
   chunk.elastic += contact.elastic;
 
   WallLoad& load = chunk.loads[static_cast<std::size_t>(touch.wall)];
-  load.impulse -= contact.force * time.dt;
-  load.angular_impulse -= (touch.point.cross(contact.force) + moment) * time.dt;
+  WallLoad& rate = chunk.rates[static_cast<std::size_t>(touch.wall)];
+  rate.impulse -= contact.force;
+  rate.angular_impulse -= touch.point.cross(contact.force) + moment;
   load.sliding_energy += contact.lost_friction;
   load.impact_energy += contact.lost_normal;
 }
