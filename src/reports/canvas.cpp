@@ -8,8 +8,7 @@ namespace sluice {
 namespace {
 
 constexpr float far_away = std::numeric_limits<float>::infinity();
-constexpr double half_angle_tangent = 0.27;  // vertical opening 30 degrees: little distortion
-constexpr float water_cover = 0.72F;         // how much of what lies behind water it hides
+constexpr float water_cover = 0.72F;  // how much of what lies behind water it hides
 const Colour sky_top(0.99F, 0.995F, 1.0F), sky_bottom(0.86F, 0.89F, 0.92F);
 
 }  // namespace
@@ -58,7 +57,7 @@ Colour Canvas::shade(const Colour& colour, const Vec3& normal, float shininess) 
   const Vec3 key = (-0.6 * right_ + 0.9 * up_ - 0.8 * forward_).normalized();
   const Vec3 fill = (0.8 * right_ + 0.1 * up_ - 0.6 * forward_).normalized();
   const auto positive = [](double x) { return static_cast<float>(std::max(0.0, x)); };
-  const float light = 0.34F + 0.60F * positive(normal.dot(key)) + 0.16F * positive(normal.dot(fill)) +
+  const float light = 0.42F + 0.62F * positive(normal.dot(key)) + 0.16F * positive(normal.dot(fill)) +
                       0.10F * static_cast<float>(normal.dot(up_));
   const Vec3 halfway = (key - forward_).normalized();
   const float gloss = shininess * std::pow(positive(normal.dot(halfway)), 40.0F);

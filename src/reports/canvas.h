@@ -13,6 +13,9 @@
 
 namespace sluice {
 
+/// Tangent of half the vertical opening of a perspective camera (30 degrees: little distortion).
+inline constexpr double half_angle_tangent = 0.27;
+
 enum class Projection { perspective, orthographic };
 
 struct Camera {

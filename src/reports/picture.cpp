@@ -9,7 +9,7 @@
 namespace sluice {
 namespace {
 
-const Colour stone(0.66F, 0.60F, 0.53F), plate(0.46F, 0.55F, 0.64F), plate_edge(0.20F, 0.27F, 0.36F);
+const Colour stone(0.70F, 0.64F, 0.56F), plate(0.46F, 0.55F, 0.64F), plate_edge(0.20F, 0.27F, 0.36F);
 constexpr float plate_alpha = 0.085F, edge_alpha = 0.55F;
 
 Vec3 point(const std::vector<float>& x, std::size_t i) {
@@ -77,26 +77,39 @@ void draw_rocks(Canvas& canvas, const ViewRocks& rocks, const SpeedScale* scale)
   }
 }
 
-/// Height that shows a box of these half extents on the picture, with a margin.
-double fitting_height(double half_across, double half_up, const PictureSize& size) {
-  const double aspect = static_cast<double>(size.width) / size.height;
-  return 2.12 * std::max(half_up, half_across / aspect);
+/// Share of the half picture that the corner farthest from its middle reaches, up or across; 1 = its rim.
+double reach(const SceneFrame& frame, const Camera& camera, const Vec3& direction, const PictureSize& size) {
+  const Vec3 right = direction.cross(frame.up).normalized(), up = right.cross(direction);
+  const double aspect = static_cast<double>(size.width) / size.height, half = 0.5 * camera.view_height;
+  double most = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vec3 x = frame.bounds.lo;
+    for (int k = 0; k < 3; ++k)
+      if ((corner >> k & 1) != 0) x[k] = frame.bounds.hi[k];
+    const Vec3 d = x - camera.target;
+    const double distance = half / half_angle_tangent;
+    const double larger = camera.projection == Projection::perspective
+                              ? distance / std::max(0.1 * distance, distance + d.dot(direction))
+                              : 1;
+    most = std::max(
+        {most, larger * std::abs(d.dot(up)) / half, larger * std::abs(d.dot(right)) / (half * aspect)});
+  }
+  return most;
 }
 
 /// A camera that looks along `direction` at the middle of the scene and shows all of it.
 Camera fitted(const SceneFrame& frame, Projection projection, const Vec3& direction,
               const PictureSize& size) {
+  constexpr double margin = 1.06;
   Camera camera;
   camera.projection = projection;
   camera.up = frame.up;
   camera.target = frame.bounds.centre();
-  const Vec3 right = direction.cross(frame.up).normalized(), up = right.cross(direction);
-  const Vec3 half = 0.5 * frame.bounds.size();
-  const double depth = half.dot(direction.cwiseAbs());
-  double height = fitting_height(half.dot(right.cwiseAbs()), half.dot(up.cwiseAbs()), size);
-  if (projection == Projection::perspective) height += 0.35 * depth;  // the near side is larger
-  camera.view_height = height;
-  camera.eye = camera.target - direction * (2 * depth + height);
+  camera.view_height = 2 * frame.bounds.size().norm();
+  // nearer means larger: a few rounds settle it
+  for (int round = 0; round < 12; ++round)
+    camera.view_height *= margin * reach(frame, camera, direction, size);
+  camera.eye = camera.target - direction * (2 * frame.bounds.size().norm() + camera.view_height);
   return camera;
 }
 

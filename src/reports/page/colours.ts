@@ -22,5 +22,5 @@ export function stoneColour(index: number, to: Color): Color {
     return (h >>> 8) / 16777216 - 0.5;
   };
   const grey = 1 + 0.26 * unit(1), warm = 0.06 * unit(77);
-  return to.setRGB(0.66 * grey + warm, 0.60 * grey, 0.53 * grey - warm, 'srgb');
+  return to.setRGB(0.70 * grey + warm, 0.64 * grey, 0.56 * grey - warm, 'srgb');
 }
