@@ -126,6 +126,9 @@ class ExplicitMpm final : public FluidSystem {
   void update(Point& p, const Gathered& g, Real (&moved)[3]) const;
   void stop_at_walls(Point& p, std::int32_t cell_key, std::int32_t stencil, WallImpulses& impulses) const;
   void settle_in_cell(Point& p, std::int32_t& cell_key) const;
+  int hiding_wall(const Visibility& seen, int node) const {
+    return field_->patch_wall(seen.patch[static_cast<std::size_t>(node)]);
+  }
   void check_reports();
   void pour_loads(std::size_t lists);
 

@@ -11,6 +11,28 @@ constexpr int most_planes = 6;      ///< that act on one point
 constexpr double stand_off = 1e-4;  ///< of a stopped point from its wall [cells]
 constexpr int most_path_hits = 3;   ///< a corner of three walls
 
+/// Impulse of a hidden node, for its walls. Where two planes lie between, as in a corner, each gets its own
+/// normal part; what is left goes to the wall that hides the node.
+struct HiddenImpulse {
+  Vec3 impulse = Vec3::Zero();  ///< on the walls [N s]
+  Vec3 at = Vec3::Zero();       ///< [m]
+  int hiding_wall = -1;
+};
+
+void share_out(HiddenImpulse hidden, const Vec3& to_node, std::span<const WallPlane> planes,
+               WallImpulses& out) {
+  int between = 0;
+  for (const WallPlane& plane : planes) between += plane.normal.dot(to_node) > plane.distance ? 1 : 0;
+  if (between > 1)
+    for (const WallPlane& plane : planes) {
+      if (plane.normal.dot(to_node) <= plane.distance) continue;
+      const Vec3 part = hidden.impulse.dot(plane.normal) * plane.normal;
+      out.add(plane.wall, part, hidden.at);
+      hidden.impulse -= part;
+    }
+  out.add(hidden.hiding_wall, hidden.impulse, hidden.at);
+}
+
 int tile_index(int local, int node) {
   return (local & 3) + node % 3 + 6 * (((local >> 2) & 3) + node / 3 % 3) + 36 * ((local >> 4) + node / 9);
 }
@@ -23,8 +45,9 @@ void ExplicitMpm<Real>::scatter_near_wall(const Point& p, std::int32_t cell_key,
   const Vec3 x = position(p.x, cell_key);
   Visibility seen;
   field_->visibility(stencil, base, x, seen);
-  WallPlane plane;
-  if (field_->planes_of_point(stencil, x, &plane, 1) > 0) a[0][node_lane::near_wall] = p.mass;
+  WallPlane planes[most_planes];
+  const int plane_count = field_->planes_of_point(stencil, x, planes, most_planes);
+  if (plane_count > 0) a[0][node_lane::near_wall] = p.mass;
 
   const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
   const int local = cell_key & 63;
@@ -41,8 +64,10 @@ void ExplicitMpm<Real>::scatter_near_wall(const Point& p, std::int32_t cell_key,
     // The wall takes the stress and the weight that the hidden node would have carried.
     Vec3 impulse = step_.dt * static_cast<double>(p.mass) * gravity_;
     for (int r = 0; r < 3; ++r) impulse[r] += static_cast<double>(lanes[node_lane::change + r]);
-    impulses.add(field_->patch_wall(seen.patch[static_cast<std::size_t>(n)]),
-                 static_cast<double>(w) * impulse, layout_.node_position(base + Vec3i(i, j, k)));
+    const Vec3 to_node = config_.spacing * (Vec3(wx.d[i], wy.d[j], wz.d[k]) + node_offset);
+    const Vec3i node = base + Vec3i(i, j, k);
+    share_out({static_cast<double>(w) * impulse, layout_.node_position(node), hiding_wall(seen, n)}, to_node,
+              {planes, static_cast<std::size_t>(plane_count)}, impulses);
   }
 }
 
@@ -117,8 +142,9 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     int used[most_planes], used_count = 0;
     for (int q = 0; q < plane_count; ++q) {
       const WallPlane& plane = planes[q];
+      // Sides are decided where nodes count as being, as in visibility(): a node on the plane has one.
+      if (plane.normal.dot(mirrored + h * node_offset) <= plane.distance) continue;
       const double beyond = plane.normal.dot(mirrored) - plane.distance;
-      if (beyond <= 0) continue;
       if (p.dilation >= 0 && v.dot(plane.normal) < 0) continue;  // leaves the wall, nothing holds it
       mirrored -= 2 * beyond * plane.normal;
       used[used_count++] = q;
@@ -144,8 +170,9 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     }
     g.bulk += static_cast<Real>(w * mean_bulk);
     const Vec3 given = ghost_change + share * (ghost - v - h * (C * d));
-    impulses.add(field_->patch_wall(seen.patch[static_cast<std::size_t>(n)]),
-                 -static_cast<double>(p.mass) * w * given, layout_.node_position(base + Vec3i(i, j, k)));
+    const Vec3i node = base + Vec3i(i, j, k);
+    share_out({-static_cast<double>(p.mass) * w * given, layout_.node_position(node), hiding_wall(seen, n)},
+              h * (d + node_offset), {planes, static_cast<std::size_t>(plane_count)}, impulses);
   }
 }
 

@@ -20,7 +20,8 @@ inline void make_periodic(Domain& domain, int axis) {
   domain.low[static_cast<std::size_t>(axis)] = domain.high[static_cast<std::size_t>(axis)] = Face::periodic;
 }
 
-/// Fills a box with points on a lattice, moved by up to `jitter` of their distance.
+/// Fills a box with points on a lattice, moved by up to `jitter` of their distance; compressed water (J < 1)
+/// has more mass in the same space.
 struct WaterFill {
   Box box;
   double jitter = 0;
@@ -41,7 +42,7 @@ inline void fill_with_water(FluidSystem& water, double distance, const WaterFill
         for (int r = 0; r < 3; ++r) p.x[r] += fill.jitter * step[r] * random.uniform(-1.0, 1.0);
         p.v = fill.velocity(p.x);
         p.J = fill.J(p.x);
-        p.mass = water.model().density * step.prod();
+        p.mass = water.model().density * step.prod() / p.J;
         water.add(p);
       }
 }
