@@ -43,6 +43,8 @@ void DemSystem::Implementation::exchange_rocks(StateArchive& archive) {
   archive.value("next_id", next_id);
   archive.value("steps", steps);
   archive.value("now", now);
+  archive.value("momentum_added", momentum_added);
+  archive.value("momentum_removed", momentum_removed);
 }
 
 void DemSystem::Implementation::exchange_tallies(StateArchive& archive) {

@@ -66,6 +66,7 @@ std::uint64_t DemSystem::add(const NewRock& rock) {
   r.radius.push_back(s.scene.shapes[static_cast<std::size_t>(rock.shape)].bounding_radius * rock.size);
   r.birth.push_back(s.now);
   r.wet_dose.push_back(0);
+  s.momentum_added += mass * rock.v;
   r.wetted.push_back(0);
   const std::size_t i = s.count() - 1;
   if (!s.only_spheres) s.angular.push_back(angular_momentum(r.q[i], r.w[i], s.inertia(i)));
@@ -154,6 +155,7 @@ std::vector<RemovedRock> DemSystem::remove(std::span<const std::size_t> indices)
       const Rocks& r = s.rocks;
       removed.push_back(
           {r.id[i], r.x[i], r.v[i], r.size[i], r.mass[i], r.birth[i], r.wet_dose[i], r.source[i]});
+      s.momentum_removed += r.mass[i] * r.v[i];
       new_index[i] = -1;
       ++next;
     } else {
@@ -172,6 +174,23 @@ std::vector<RemovedRock> DemSystem::remove_outside() {
   for (std::size_t i = 0; i < s.count(); ++i)
     if (s.scene.domain.outside(s.rocks.x[i])) indices.push_back(i);
   return remove(indices);
+}
+
+void DemSystem::add_wet_dose(std::span<const double> wetted_fraction, double dt) {
+  Rocks& r = implementation_->rocks;
+  if (wetted_fraction.size() != r.count())
+    throw std::logic_error("DemSystem::add_wet_dose: one wetted fraction per rock");
+  for (std::size_t i = 0; i < r.count(); ++i) {
+    r.wetted[i] = wetted_fraction[i];
+    r.wet_dose[i] += wetted_fraction[i] * dt;
+  }
+}
+
+Vec3 DemSystem::momentum_added() const {
+  return implementation_->momentum_added;
+}
+Vec3 DemSystem::momentum_removed() const {
+  return implementation_->momentum_removed;
 }
 
 void DemSystem::set_fluid_force(std::span<const Vec3> force, std::span<const Vec3> torque) {

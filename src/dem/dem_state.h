@@ -97,7 +97,8 @@ struct DemSystem::Implementation {
   PairList pairs;
   bool list_valid = true;
   std::uint64_t next_id = 0, steps = 0;
-  double now = 0;  ///< end of the last step [s]
+  double now = 0;                                                       ///< end of the last step [s]
+  Vec3 momentum_added = Vec3::Zero(), momentum_removed = Vec3::Zero();  ///< since start [N s]
 
   std::vector<DemChunk> chunks;
   Histogram overlap_histogram;

@@ -114,6 +114,7 @@ void DemSystem::Implementation::list_pairs() {
   pairs.rebuild(rocks.x, rocks.radius, skin, scene.domain);
   listed_at = rocks.x;
   list_valid = true;
+  room_valid = false;  // its grid allows for the skin only
 }
 
 void DemSystem::Implementation::contacts(const StepTime& time) {

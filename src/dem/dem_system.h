@@ -118,6 +118,8 @@ class DemSystem {
   Vec3 momentum() const;              ///< [N s]
   Vec3 impulse_from_gravity() const;  ///< since start, on rocks inside [N s]
   Vec3 impulse_from_fluid() const;    ///< since start [N s]
+  Vec3 momentum_added() const;        ///< by add() since start [N s]
+  Vec3 momentum_removed() const;      ///< by remove() and remove_outside() since start [N s]
 
   std::uint64_t state_hash() const;  ///< sum of hashes per rock by id
   std::size_t memory_bytes() const;

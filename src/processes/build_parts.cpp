@@ -257,7 +257,7 @@ BuiltProcess Builder::build() {
   if (parts.rocks && parts.water && config_.coupled)
     parts.coupling = std::make_unique<Coupling>(config_.coupling.value_or(CouplingConfig{}), parts.domain,
                                                 parts.gravity, *parts.rocks, *parts.water);
-  parts.exits.emplace(config_.exits, *parts.walls, config_.output.exit_slot);
+  parts.exits.emplace(config_.exits, *parts.walls, config_.output.exit_slot, parts.domain);
   for (const GaugeConfig& gauge : config_.gauges) parts.probes.push_back(make_gauge(gauge));
   for (const MixingConfig& mixing : config_.mixing)
     parts.probes.push_back(std::make_unique<MixingProbe>(mixing));
