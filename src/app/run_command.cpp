@@ -126,7 +126,10 @@ void Run::exchange(StateArchive& a) {
   a.leave();
   double wall = wall_before_ + seconds_since(start_);
   a.value("wall_seconds", wall);
-  if (a.loading()) wall_before_ = wall;
+  if (a.loading()) {
+    wall_before_ = wall;
+    start_ = std::chrono::steady_clock::now();
+  }
 }
 
 void Run::save() {

@@ -32,7 +32,8 @@ struct Coupling::Implementation {
         gravity(g),
         rocks(r),
         fluid(f),
-        grid(domain, f.spacing()),
+        grid(domain, f.spacing(), c.kernel_diameters * r.scene().smallest_size,
+             c.kernel_diameters * r.scene().largest_size),
         table(domain, f.spacing()),
         domain(domain) {
     points = wetting_points(r.shapes(), static_cast<int>(c.wetting_points));
@@ -288,7 +289,6 @@ void Coupling::drag(double dt) {
   Implementation& c = *implementation_;
   const std::size_t count = c.rocks.rocks().count();
   c.fluid.read_nodes(c.nodes);
-  c.grid.clear_fluid();
   c.grid.gather(c.nodes);
   c.table.set(c.nodes);
   c.find_wetted();

@@ -3,8 +3,9 @@
 /// kernel (trilinear, 2 spacings wide) is at least the stated multiple of its size, so that no rock
 /// needs more than eight nodes. Periodic axes hold a whole number of cells.
 ///
-/// Fluid nodes are averaged onto a level with the same trilinear weights. What a level's node gives
-/// back goes to its fluid nodes in proportion to their mass: sums are exact in both directions.
+/// Fluid nodes are averaged onto the finest level in use, that one on to the next coarser one in use, and so
+/// on, each with trilinear weights. What a level's node gives back goes down the same way, in proportion
+/// to mass: sums are exact in both directions. Only nodes that fluid reaches are visited or cleared.
 
 #include <array>
 #include <cstdint>
@@ -33,19 +34,22 @@ struct CouplingLevel {
   std::vector<Vec3> acceleration;        ///< mass-weighted sum of Du/Dt [kg m/s2]
   std::vector<double> displaced;         ///< wetted volume of rock [m3]
   std::vector<Vec3> impulse;             ///< to be given to the fluid [N s]
-  std::vector<double> drag_sum;          ///< sum of dt b w [kg]
-  std::vector<Vec3> drag_rock_momentum;  ///< sum of dt b w v_rock [kg m/s]
+  std::vector<double> drag_sum;          ///< sum of b w [kg]
+  std::vector<Vec3> drag_rock_momentum;  ///< sum of b w v_rock [kg m/s]
+  std::vector<int> wet;                  ///< nodes with fluid, in the order in which it reached them
+  std::vector<LevelWeights> up;          ///< of each of its nodes on the next coarser level in use
 
   double cell_volume() const { return spacing.prod(); }
 };
 
 class CouplingGrid {
  public:
-  CouplingGrid(const Domain& domain, double fluid_spacing);
+  /// @param narrowest, widest  kernels that rocks of the scene ask for [m]; decide which levels are in use
+  CouplingGrid(const Domain& domain, double fluid_spacing, double narrowest, double widest);
 
-  /// Level whose kernel is at least `width` [m]; made when first asked for. The widest level has two
-  /// cells along the domain's longest side.
-  int level_for(double width);
+  /// Level whose kernel is at least `width` [m]. The widest level has two cells along the domain's
+  /// longest side.
+  int level_for(double width) const;
   CouplingLevel& level(int l) { return levels_[static_cast<std::size_t>(l)]; }
   const CouplingLevel& level(int l) const { return levels_[static_cast<std::size_t>(l)]; }
   bool in_use(int l) const { return !level(l).mass.empty(); }
@@ -54,19 +58,23 @@ class CouplingGrid {
   double kernel_width(int l) const { return 2 * level(l).spacing.minCoeff(); }  ///< [m]
 
   void clear_solids();
-  void clear_fluid();
-  /// Averages the fluid's nodes onto every level in use.
+  /// Averages the fluid's nodes on to every level in use; what the levels held of the fluid is dropped.
   void gather(const FluidNodes& nodes);
+  /// The same nodes' acceleration. @pre gather was called with these nodes
   void gather_acceleration(const FluidNodes& nodes, const std::vector<Vec3>& acceleration);
-  /// Impulse [N s] and displaced volume [m3] of each fluid node from all levels.
-  void scatter(const FluidNodes& nodes, std::vector<Vec3>& impulse, std::vector<double>& displaced) const;
+  /// Impulse [N s] and displaced volume [m3] of each fluid node from all levels. @pre as above
+  void scatter(const FluidNodes& nodes, std::vector<Vec3>& impulse, std::vector<double>& displaced);
   std::size_t memory_bytes() const;
 
  private:
   void make(int l);
+  Vec3 place_of(int l, int node) const;
+
   Domain domain_;
   double fluid_spacing_;
+  int finest_ = 0, coarsest_ = 0;  ///< levels in use
   std::vector<CouplingLevel> levels_;
+  std::vector<LevelWeights> of_fluid_;  ///< of each fluid node on the finest level in use
 };
 
 }  // namespace sluice

@@ -102,6 +102,7 @@ class ExplicitMpm final : public FluidSystem {
     Real moment[9];  ///< of change + velocity, row-major like C [m/s]
     Real bulk_moment[3];
     Real fill_moment[3];
+    bool beside_wall;  ///< some nodes are hidden
   };
 
   std::vector<RemovedPoint> remove_slots(std::vector<std::uint32_t>& slots);

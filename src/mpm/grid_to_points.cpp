@@ -116,6 +116,7 @@ void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, 
   g.fill = sum[fill];
   g.dilation = sum[dilation];
   g.least_fill = tile.least_fill[local];
+  g.beside_wall = false;
 }
 
 /// New velocity, C and J of a point, and how far it moves [cells].
@@ -132,8 +133,11 @@ void ExplicitMpm<Real>::update(Point& p, const Gathered& g, Real (&moved)[3]) co
     moved[r] = (v + to_grid) * dt / h;
     const Real old = p.v[r];
     p.v[r] = v + a * to_grid;
+    // What the grid does not know of C stays as it was, but not beside walls: nothing damps it there, and in
+    // a wedge it would feed back through the mirrored nodes.
+    const Real kept = g.beside_wall ? Real(0) : 1 - g.bulk;
     for (int c = 0; c < 3; ++c)
-      p.C[3 * r + c] = (1 - g.bulk) * p.C[3 * r + c] + 4 / h * (g.moment[3 * r + c] - old * g.bulk_moment[c]);
+      p.C[3 * r + c] = kept * p.C[3 * r + c] + 4 / h * (g.moment[3 * r + c] - old * g.bulk_moment[c]);
   }
 
   // J: average of the departure from the local pressure gradient, then the flow, then the density's pull.

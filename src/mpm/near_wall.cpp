@@ -10,6 +10,8 @@ namespace {
 constexpr int most_planes = 6;      ///< that act on one point
 constexpr double stand_off = 1e-4;  ///< of a stopped point from its wall [cells]
 constexpr int most_path_hits = 3;   ///< a corner of three walls
+/// Weight of the visible nodes from which on their mean speaks for the hidden ones; below, gravity fills in.
+constexpr double enough_seen = 0.25;
 
 /// Impulse of a hidden node, for its walls. Where two planes lie between, as in a corner, each gets its own
 /// normal part; what is left goes to the wall that hides the node.
@@ -85,6 +87,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     return;
   }
 
+  g.beside_wall = true;
   const double h = config_.spacing;
   const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
   Node sum, sum_axis[3];
@@ -123,7 +126,9 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     g.bulk_moment[r] = sum_axis[r][node_lane::mass];
     g.fill_moment[r] = sum_axis[r][fill] - g.fill * weight_moment[r];
     for (int c = 0; c < 3; ++c) g.moment[3 * r + c] = sum_axis[c][change + r] + sum_axis[c][velocity + r];
-    if (weight > 0) mean_change[r] = static_cast<double>(sum[change + r] * per_weight);
+    const Real trust = std::min(Real(1), weight / Real(enough_seen));
+    mean_change[r] = (1 - static_cast<double>(trust)) * mean_change[r] +
+                     static_cast<double>(sum[change + r] / std::max(weight, Real(enough_seen)));
   }
 
   // Hidden nodes: the point's own field, mirrored at the planes between.

@@ -29,7 +29,8 @@ struct Scene {
     scene.shapes = {make_sphere(), make_superquadric(1.4, 0.7, 4)};
     scene.domain = domain;
     scene.gravity = gravity;
-    scene.smallest_size = scene.largest_size = size;
+    scene.smallest_size = std::min(size, 0.01);
+    scene.largest_size = std::max(size, 0.25);
     scene.densest = density;
     rocks = std::make_unique<DemSystem>(DemConfig{}, scene, walls);
     coupling = std::make_unique<Coupling>(config, domain, gravity, *rocks, fluid);
