@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# Runs the benchmarks and writes reports/benchmarks.{md,json} with their provenance. Ten minutes or so, on a quiet
+# machine. Usage: scripts/bench.sh [FILTER]
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+filter="${1:-.}"
+scripts/setup.sh
+cmake --preset release >/dev/null
+cmake --build --preset release --target sluice_bench
+threads="${OMP_NUM_THREADS:-$(nproc)}"
+export OMP_NUM_THREADS="$threads"
+text=$(build/release/sluice_bench --benchmark_filter="$filter" --benchmark_counters_tabular=true \
+  --benchmark_out=reports/benchmarks.json --benchmark_out_format=json 2>/dev/null)
+{
+  echo "# Benchmarks"
+  echo
+  echo "- commit: $(git rev-parse --short=12 HEAD)"
+  echo "- command: \`scripts/bench.sh $filter\`"
+  echo "- compiler: $(c++ --version | head -n 1), \`-O3 -march=native -fno-math-errno -fno-trapping-math\`"
+  echo "- threads: $threads on $(grep -m1 'model name' /proc/cpuinfo | cut -d: -f2 | xargs)"
+  echo
+  echo "Each benchmark checks its answer before it reports. Compare figures of one run only."
+  echo
+  echo '```'
+  echo "$text"
+  echo '```'
+} >reports/benchmarks.md
+# The machine's name is nobody's business.
+sed -i 's/"host_name": "[^"]*"/"host_name": ""/; s|"executable": "[^"]*"|"executable": "sluice_bench"|' reports/benchmarks.json
+echo "written: reports/benchmarks.md"

@@ -1,0 +1,162 @@
+/// Rocks in water that moves: the coupling with the material point method.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+#include "coupling/coupling.h"
+#include "mpm/mpm_system.h"
+
+namespace sluice {
+namespace {
+
+const Vec3 gravity(0, 0, -9.81);
+
+/// A column of water on a floor, periodic sideways, with rocks in it.
+struct Pool {
+  Pool(double width, double depth, double spacing, double largest_rock, const CouplingConfig& config) {
+    domain.box = {Vec3::Zero(), Vec3(width, width, depth + 8 * spacing)};
+    domain.low = {Face::periodic, Face::periodic, Face::wall};
+    domain.high = {Face::periodic, Face::periodic, Face::open};
+    Wall floor;
+    floor.name = "floor";
+    const double e = width;  // beyond the periodic faces
+    floor.mesh = make_rectangle("floor", {Vec3(-e, -e, 0), Vec3(width + e, -e, 0),
+                                          Vec3(width + e, width + e, 0), Vec3(-e, width + e, 0)});
+    walls = Walls({floor});
+    MpmConfig mpm;
+    mpm.spacing = spacing;
+    mpm.fastest_bulk_speed = 1;
+    mpm.deepest = depth;
+    water = make_mpm(mpm, domain, gravity, walls);
+    fill(depth);
+
+    DemScene scene;
+    scene.materials.all = {{"rock", 2650}};
+    scene.materials.pairs = {PairProperties{}};
+    scene.shapes = {make_sphere()};
+    scene.domain = domain;
+    scene.gravity = gravity;
+    scene.smallest_size = scene.largest_size = largest_rock;
+    scene.densest = 2650;
+    rocks = std::make_unique<DemSystem>(DemConfig{.impact_speed = 1}, scene, walls);
+    coupling = std::make_unique<Coupling>(config, domain, gravity, *rocks, *water);
+  }
+
+  void fill(double depth) {
+    const double step = water->spacing() / 2;
+    const double c = water->limits().sound_speed;
+    for (double z = step / 2; z < depth; z += step)
+      for (double y = step / 2; y < domain.box.hi.y(); y += step)
+        for (double x = step / 2; x < domain.box.hi.x(); x += step) {
+          NewPoint p;
+          p.x = {x, y, z};
+          p.J = std::exp(-9.81 * (depth - z) / (c * c));
+          p.mass = water->model().density * water->point_volume() / p.J;
+          water->add(p);
+        }
+  }
+
+  enum class Rocks { held, falling };
+  void step(Rocks how) {
+    const double dt = water->limits().step;
+    coupling->solids_to_grid();
+    water->points_to_grid(t, dt);
+    coupling->drag(dt);
+    water->walls(dt);
+    water->grid_to_points(dt);
+    coupling->fluid_to_grid(dt);
+    const int n = static_cast<int>(std::ceil(dt / rocks->step_size()));
+    for (int k = 0; how == Rocks::falling && k < n; ++k) rocks->step(t + k * dt / n, dt / n);
+    t += dt;
+  }
+
+  /// Mean height of the points, which is half the depth of a level pool [m].
+  double centroid() const {
+    const WaterPoints p = water->points();
+    double moment = 0, mass = 0;
+    for (std::size_t i = 0; i < p.count(); ++i) {
+      moment += p.mass[i] * p.x[i].z();
+      mass += p.mass[i];
+    }
+    return moment / mass;
+  }
+
+  Domain domain;
+  Walls walls;
+  std::unique_ptr<FluidSystem> water;
+  std::unique_ptr<DemSystem> rocks;
+  std::unique_ptr<Coupling> coupling;
+  double t = 0;
+};
+
+double terminal_velocity(DragModel model, double d) {
+  const double weight = std::numbers::pi / 6 * d * d * d * 1650 * 9.81;
+  double lo = 0, hi = 20;
+  for (int i = 0; i < 200; ++i) {
+    DragInput in;
+    in.diameter = d;
+    in.speed = 0.5 * (lo + hi);
+    (drag_per_speed(model, in) * in.speed < weight ? lo : hi) = in.speed;
+  }
+  return lo;
+}
+
+TEST(TwoWayCoupling, LetsARockFallAtItsTerminalVelocity) {
+  const double d = 0.01;
+  Pool pool(0.32, 0.8, 0.04, d, CouplingConfig{});
+  NewRock rock;
+  rock.x = {0.16, 0.16, 0.7};
+  rock.size = d;
+  pool.rocks->add(rock);
+  double sum = 0;
+  int count = 0;
+  while (pool.rocks->rocks().x[0].z() > 0.25 && pool.t < 1.5) {
+    pool.step(Pool::Rocks::falling);
+    if (pool.rocks->rocks().x[0].z() > 0.4) continue;
+    sum -= pool.rocks->rocks().v[0].z();
+    ++count;
+  }
+  ASSERT_GT(count, 100);
+  const double expected = terminal_velocity(DragModel::di_felice, d);
+  EXPECT_GT(1000 * expected * d / 1e-3, 100) << "Reynolds number";
+  EXPECT_GE(pool.coupling->smallest_kernel_ratio(), 4);
+  EXPECT_NEAR(sum / count, expected, 0.05 * expected);
+}
+
+// Rocks of volume V held under water of area A: the level rises by V/A. The centroid of water that fills
+// (depth + rise) with rocks spread evenly over the lower part is what is compared, through its own balance.
+TEST(Level, RisesByTheRocksVolumeOverTheArea) {
+  const double width = 0.2, depth = 0.4, d = 0.05;
+  Pool pool(width, depth, 0.025, d, CouplingConfig{});
+  double volume = 0;
+  for (int k = 0; k < 4; ++k)
+    for (int j = 0; j < 2; ++j)
+      for (int i = 0; i < 2; ++i) {
+        NewRock rock;
+        rock.x = {0.05 + 0.1 * i, 0.05 + 0.1 * j, 0.08 + 0.08 * k};
+        rock.size = d;
+        pool.rocks->add(rock);
+        volume += pool.rocks->volume(pool.rocks->rocks().count() - 1);
+      }
+  const double before = pool.centroid();
+  double sum = 0;
+  int count = 0;
+  while (pool.t < 1.5) {
+    pool.step(Pool::Rocks::held);
+    if (pool.t < 0.75) continue;
+    sum += pool.centroid();
+    ++count;
+  }
+  // Water (height H = depth + rise, area A) and rock (centred at their mean height) together fill A H evenly:
+  // A H (H/2) = V z_rock + A depth z_water.
+  const double rise = volume / (width * width), height = depth + rise;
+  const double z_rock = 0.2;
+  const double expected = (height * height / 2 - rise * z_rock) / depth;
+  EXPECT_NEAR((sum / count - before) / (expected - before), 1.0, 0.1);
+}
+
+}  // namespace
+}  // namespace sluice
