@@ -41,7 +41,9 @@ struct Pool {
     scene.gravity = gravity;
     scene.smallest_size = scene.largest_size = largest_rock;
     scene.densest = 2650;
-    rocks = std::make_unique<DemSystem>(DemConfig{.impact_speed = 1}, scene, walls);
+    DemConfig dem;
+    dem.impact_speed = 1;
+    rocks = std::make_unique<DemSystem>(dem, scene, walls);
     coupling = std::make_unique<Coupling>(config, domain, gravity, *rocks, *water);
   }
 
