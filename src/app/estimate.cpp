@@ -11,8 +11,8 @@ namespace {
 
 // Measured in the demo feed box, 2 threads, inside their own stages.
 constexpr double sphere_steps_per_s = 5e6;
-constexpr double superquadric_steps_per_s = 1.0e6;
-constexpr double point_steps_per_s = 4e6;
+constexpr double superquadric_steps_per_s = 1.8e6;
+constexpr double point_steps_per_s = 1.1e6;
 constexpr double bytes_per_rock = 1500;  ///< neighbours and contacts included
 constexpr double bytes_per_point = 250;
 
