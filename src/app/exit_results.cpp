@@ -1,20 +1,20 @@
 #include "app/exit_results.h"
 
+#include "analysis/residence.h"
 #include "analysis/steady_state.h"
 
 namespace sluice {
 
 namespace {
 
-/// Mean time that rock spent inside, over all exits, weighted by mass [s]; 0 = none left yet.
-double residence_time(const std::vector<ExitTally>& tallies) {
+/// Mean time that rock which left by any exit spent inside [s]; 0 = none left yet.
+double residence_time(const std::vector<ExitTally>& tallies, double now) {
   double kg_s = 0, kg = 0;
-  for (const ExitTally& tally : tallies)
-    for (std::size_t slot = 0; slot < tally.slots(); ++slot)
-      for (std::size_t bin = 0; bin < tally.bin_count(); ++bin) {
-        kg_s += tally.at(slot, bin).rock_residence_kg;
-        kg += tally.at(slot, bin).rock_kg;
-      }
+  for (const ExitTally& tally : tallies) {
+    if (!(tally.rock_kg() > 0)) continue;
+    kg_s += tally.rock_kg() * residence_times(tally, 0, now).mean;
+    kg += tally.rock_kg();
+  }
   return kg > 0 ? kg_s / kg : 0.0;
 }
 
@@ -24,7 +24,7 @@ std::vector<ExitResult> exit_results(const Simulation& simulation) {
   const Parts& parts = simulation.parts();
   const double now = simulation.time();
   const double density = parts.water ? parts.water->model().density : 1000.0;
-  const double residence = residence_time(parts.exits->tallies());
+  const double residence = residence_time(parts.exits->tallies(), now);
   std::vector<ExitResult> results;
   for (const ExitTally& tally : parts.exits->tallies()) {
     ExitResult result;

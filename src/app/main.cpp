@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
   CLI::App* run_command = app.add_subcommand("run", "simulate a process");
   run_command->add_option("process", run.process, "process file (YAML)")->required();
   run_command->add_option("--out", run.out, "run folder [out/NAME]");
-  run_command->add_option("--threads", run.threads, "threads [all]")->check(CLI::PositiveNumber);
+  run_command->add_option("--threads", run.threads, "threads [all]")->check(CLI::Range(1, 1024));
   run_command->add_option("--until", run.until, "end at this simulated time, such as '2 s'");
   run_command->add_flag("--resume", run.resume, "go on from the run folder's checkpoint");
   run_command->add_option("--set", run.overrides, "key=value, over the process file; may be repeated");
@@ -71,6 +71,12 @@ int main(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
     return app.exit(e);
+  } catch (const CLI::RequiredError& e) {
+    // CLI11 says only that a command is required, also where one was misspelt.
+    if (argc > 1 && app.get_subcommands().empty())
+      std::fprintf(stderr, "'%s' is not a command (there are run, check, explain and report)\n", argv[1]);
+    app.exit(e);
+    return 2;
   } catch (const CLI::ParseError& e) {
     app.exit(e);
     return 2;

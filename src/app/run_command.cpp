@@ -88,6 +88,7 @@ class Run {
   std::unique_ptr<Recorder> recorder_;
   std::vector<std::string> warnings_;
   MemoryArchive last_good_;
+  double end_ = 0;          ///< [s]
   double wall_before_ = 0;  ///< seconds spent before this resume
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
@@ -98,17 +99,22 @@ Run::Run(const RunOptions& options) : options_(options) {
   config_ = source_.config;
   built_ = build_parts(config_);
   warnings_ = built_.warnings;
+  end_ = end_time(options_, config_);
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("out") / options.process.stem() : options.out;
+  if (options.resume && !std::filesystem::is_directory(out))
+    throw EnvironmentError(
+        fmt::format("{}: there is no run to resume; start it without --resume", out.string()));
   folder_ = open_run_folder(out, options.resume ? FolderUse::resume : FolderUse::fresh);
   simulation_ = std::make_unique<Simulation>(std::move(built_.parts));
   std::optional<double> resume_time;
   if (options.resume) {
     // The state is restored before the recorder opens its files at the right place.
-    MemoryArchive unused;
     const auto found = find_checkpoint(folder_);
     if (!found)
-      throw EnvironmentError(fmt::format("{}: there is no checkpoint to resume from", folder_.root.string()));
+      throw EnvironmentError(fmt::format("{}: there is no checkpoint to resume from; start without --resume", folder_.root.string()));
+    // Before anything in the folder is touched.
+    refuse_other_process(folder_, found->stamp, source_.sha256);
     resume_time = found->stamp.time;
     recorder_ = std::make_unique<Recorder>(config_, folder_, *simulation_, resume_time);
     const RestoredCheckpoint restored =
@@ -174,7 +180,7 @@ int Run::finish(Outcome outcome, const std::optional<RunManifest::Failure>& fail
 }
 
 int Run::go() {
-  const double end = end_time(options_, config_);
+  const double end = end_;
   const EarlyStop early(config_, built_.rock_rate);
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);

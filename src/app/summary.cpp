@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "analysis/budgets.h"
 #include "analysis/mixing.h"
 #include "app/exit_results.h"
 #include "base/parallel.h"
@@ -29,62 +30,42 @@ std::int64_t peak_bytes() {
   return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-enum class Phase { rock, water, fines };
-
-double left_through(const ExitTally& tally, Phase phase) {
-  switch (phase) {
-    case Phase::rock:
-      return tally.rock_kg();
-    case Phase::water:
-      return tally.water_kg();
-    case Phase::fines:
-      return tally.fines_kg();
-  }
-  return 0;
-}
-
-BudgetEntry budget_of(const Parts& parts, Phase phase) {
-  BudgetEntry b;
-  b.initial_kg = phase == Phase::rock    ? parts.initial_rock_kg
-                 : phase == Phase::water ? parts.initial_water_kg
-                                         : parts.initial_fines_kg;
+/// What the feeds say of one phase joins what is inside and what left.
+BudgetEntry budget_entry(const Parts& parts, PhaseBudget b, double initial,
+                         InflowBudget (Inflow::*phase)() const) {
+  b.initial = initial;
   for (const auto& inflow : parts.inflows) {
-    const InflowBudget in = phase == Phase::rock    ? inflow->rock()
-                            : phase == Phase::water ? inflow->water()
-                                                    : inflow->fines();
-    b.requested_kg += in.requested;
-    b.entered_kg += in.entered;
-    b.waiting_kg += in.waiting;
+    const InflowBudget in = (inflow.get()->*phase)();
+    b.requested += in.requested;
+    b.entered += in.entered;
+    b.waiting += in.waiting;
   }
-  if (phase == Phase::rock)
-    for (double m : parts.rocks->rocks().mass) b.inside_kg += m;
-  else
-    b.inside_kg = phase == Phase::water ? parts.water->total_mass() : parts.water->total_fines();
-  for (const ExitTally& tally : parts.exits->tallies())
-    b.left_kg.emplace_back(tally.config().name, left_through(tally, phase));
-  b.left_kg.emplace_back("outside", left_through(parts.exits->outside(), phase));
-  b.lost_kg = b.residual();
-  return b;
+  BudgetEntry entry{b.initial, b.requested, b.entered, b.waiting, b.inside, {}, b.lost()};
+  for (const LeftMass& left : b.left) entry.left_kg.emplace_back(left.exit, left.kg);
+  return entry;
 }
 
-/// Momentum inside less what came in, went out, and what gravity, walls and the other phase gave [N s].
-std::array<double, 3> momentum_residual(const Parts& parts) {
-  Vec3 residual = Vec3::Zero();
-  const auto walls = [&](const std::vector<WallLoad>& loads) {
-    for (const WallLoad& load : loads) residual += load.impulse;  // what the walls received
-  };
+/// Of both phases together [N s]: what they exchange cancels but for what the coupling itself counts.
+std::array<double, 3> momentum_gap(const Parts& parts) {
+  MomentumTerms terms;
   if (const DemSystem* rocks = parts.rocks.get()) {
-    residual += rocks->momentum() - rocks->momentum_added() + rocks->momentum_removed() -
-                rocks->impulse_from_gravity() - rocks->impulse_from_fluid();
-    walls(rocks->wall_loads());
+    terms.now += rocks->momentum();
+    terms.gravity += rocks->impulse_from_gravity();
+    terms.entered += rocks->momentum_added();
+    terms.left += rocks->momentum_removed();
+    terms.to_walls += impulse_to_walls(rocks->wall_loads());
+    terms.from_other += rocks->impulse_from_fluid();
   }
   if (const FluidSystem* water = parts.water.get()) {
-    residual += water->momentum() - water->momentum_added() + water->momentum_removed() -
-                water->impulse_from_gravity();
-    if (parts.coupling) residual -= parts.coupling->impulse_on_fluid();
-    walls(water->wall_loads());
+    terms.now += water->momentum();
+    terms.gravity += water->impulse_from_gravity();
+    terms.entered += water->momentum_added();
+    terms.left += water->momentum_removed();
+    terms.to_walls += impulse_to_walls(water->wall_loads());
+    if (parts.coupling) terms.from_other += parts.coupling->impulse_on_fluid();
   }
-  return {residual.x(), residual.y(), residual.z()};
+  const Vec3 gap = momentum_residual(terms);
+  return {gap.x(), gap.y(), gap.z()};
 }
 
 NamedNumbers energy_terms(const Parts& parts) {
@@ -174,10 +155,11 @@ void fill_warnings(RunManifest& m, const RunState& run, const std::vector<ExitRe
   for (const auto& inflow : parts.inflows)
     if (const std::string warning = inflow->warning(); !warning.empty()) m.warnings.push_back(warning);
   const ExitTally& outside = parts.exits->outside();
-  if (outside.rock_kg() > 0 || outside.water_kg() > 0)
-    m.warnings.push_back(
-        fmt::format("{:.4g} kg of rock and {:.4g} kg of water left through open faces of the domain",
-                    outside.rock_kg(), outside.water_kg()));
+  std::string left;
+  if (outside.rock_kg() > 0) left = fmt::format("{:.4g} kg of rock", outside.rock_kg());
+  if (outside.water_kg() > 0)
+    left += fmt::format("{}{:.4g} kg of water", left.empty() ? "" : " and ", outside.water_kg());
+  if (!left.empty()) m.warnings.push_back(left + " left through open faces of the domain");
   for (const ExitResult& exit : exits)
     if (!exit.steady_from)
       m.warnings.push_back(
@@ -244,10 +226,11 @@ RunManifest make_manifest(const RunState& run, Outcome outcome,
   m.parts.present = parts.present();
   m.parts.left_out = parts.left_out();
   m.counts.wall_triangles = static_cast<std::int64_t>(parts.walls->mesh().triangles.size());
+  const MassBudgets masses = mass_budgets(*parts.exits, parts.rocks.get(), parts.water.get());
   if (parts.rocks) {
     m.counts.rocks = static_cast<std::int64_t>(parts.rocks->rocks().count());
     m.counts.rocks_max = static_cast<std::int64_t>(simulation.rocks_max());
-    m.budgets.rock = budget_of(parts, Phase::rock);
+    m.budgets.rock = budget_entry(parts, masses.rock, parts.initial_rock_kg, &Inflow::rock);
     m.overlap = RunManifest::Overlap{parts.rocks->overlap_mean(), parts.rocks->overlaps().quantile(0.99),
                                      parts.rocks->overlap_max()};
     m.memory.rock_bytes = static_cast<std::int64_t>(parts.rocks->memory_bytes());
@@ -255,12 +238,12 @@ RunManifest make_manifest(const RunState& run, Outcome outcome,
   if (parts.water) {
     m.counts.water_points = static_cast<std::int64_t>(parts.water->count());
     m.counts.water_points_max = static_cast<std::int64_t>(simulation.points_max());
-    m.budgets.water = budget_of(parts, Phase::water);
-    m.budgets.fines = budget_of(parts, Phase::fines);
+    m.budgets.water = budget_entry(parts, masses.water, parts.initial_water_kg, &Inflow::water);
+    m.budgets.fines = budget_entry(parts, masses.fines, parts.initial_fines_kg, &Inflow::fines);
     m.memory.fluid_bytes = static_cast<std::int64_t>(parts.water->memory_bytes());
   }
   m.memory.peak_bytes = peak_bytes();
-  m.budgets.momentum_residual_N_s = momentum_residual(parts);
+  m.budgets.momentum_residual_N_s = momentum_gap(parts);
   m.budgets.energy = energy_terms(parts);
   fill_rates(m, simulation);
   const std::vector<ExitResult> exits = exit_results(simulation);

@@ -83,7 +83,7 @@ std::uint64_t hash_after(const std::string& file, int steps, int threads) {
 
 TEST(StateHash, IsTheSameForAnyNumberOfThreads) {
   for (const auto& [file, steps] :
-       {std::pair{"container/mixed.yaml", 300}, {"transfer-chute/dry.yaml", 400}}) {
+       {std::pair{"container/mixed.yaml", 100}, {"transfer-chute/dry.yaml", 60}}) {
     SCOPED_TRACE(file);
     const std::uint64_t one = hash_after(file, steps, 1);
     EXPECT_NE(one, 0u);
@@ -94,7 +94,7 @@ TEST(StateHash, IsTheSameForAnyNumberOfThreads) {
 
 TEST(StateHash, IsTheSameAfterARestart) {
   for (const auto& [file, steps] :
-       {std::pair{"container/mixed.yaml", 200}, {"transfer-chute/dry.yaml", 300}}) {
+       {std::pair{"container/mixed.yaml", 100}, {"transfer-chute/dry.yaml", 80}}) {
     SCOPED_TRACE(file);
     Simulation whole = simulation_of(file);
     MemoryArchive saved;
