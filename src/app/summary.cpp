@@ -268,7 +268,8 @@ void write_summary(const RunFolder& folder, const RunState& run, Outcome outcome
     const auto* mixer = dynamic_cast<const MixingProbe*>(probe.get());
     if (!mixer) continue;
     for (const MixingRow& r : mixer->rows())
-      mixing.push_back({r.t, mixer->name(), r.position, r.rock_kg, r.water_kg, r.lacey, r.rsd, r.wetted});
+      mixing.push_back({r.t, fmt::format("{} at {:.2f} m", mixer->name(), r.position), r.position, r.rock_kg,
+                        r.water_kg, r.lacey, r.rsd, r.wetted});
   }
   write_csv(folder.mixing(), mixing_table(mixing));
 
