@@ -60,6 +60,8 @@ void ExitConfig::keys(Schema& s) {
   if (s.given("width_from") != s.given("width_to"))
     s.problem(s.given("width_from") ? "width_to" : "width_from", "is missing", "a width has two ends",
               "give both ends or none");
+  if (s.given("width_from") && s.given("width_to") && width_from == width_to)
+    s.problem("width_to", "is where 'width_from' is", "the width would be nothing", "give its other end");
   if (deck || !s.given("low") || !s.given("high")) return;
   if (!(low.array() <= high.array()).all())
     s.problem("high", "is below 'low'", "the corners are given from small to large", "swap the coordinates");
@@ -72,27 +74,37 @@ void ExitConfig::keys(Schema& s) {
               "use kind: plane or a box");
 }
 
-void check_exits(const std::vector<ExitConfig>& configs, const Domain& domain, const Walls& walls) {
+void check_exits(const std::vector<ExitConfig>& configs, const Domain& domain, const Walls& walls,
+                 double cell) {
   std::vector<InputProblem> problems;
   for (const ExitConfig& c : configs) {
+    if (c.name == "outside")
+      problems.push_back({c.where, c.name, "is a name that is taken",
+                          "it stands for the open faces of the domain", "give the exit another name"});
     if (c.kind == ExitKind::deck) {
       const auto wall = std::find_if(walls.all().begin(), walls.all().end(),
                                      [&](const Wall& w) { return w.name == c.part; });
       if (wall == walls.all().end())
-        problems.push_back({c.where, "part", fmt::format("names '{}'", c.part), "there is no such part",
-                            "use the name of a part under 'parts'"});
+        problems.push_back({c.where, "part", fmt::format("is '{}', which is not a wall", c.part),
+                            "the deck is one of the walls", "name one of 'walls'"});
       else if (wall->blocks != BlocksPhase::rocks_only)
-        problems.push_back({c.where, "part", fmt::format("'{}' does not let water through", c.part),
-                            "water reaches a deck exit by crossing the part",
-                            "set 'blocks: rocks' on the part"});
+        problems.push_back({c.where, "part", fmt::format("is '{}', which also stops water", c.part),
+                            "a deck lets water through its apertures",
+                            fmt::format("set 'blocks: rocks_only' for the wall '{}'", c.part)});
+      else if (cell > 0 && c.aperture > 2 * cell)
+        problems.push_back({c.where, "aperture", fmt::format("is {:.3g} m", c.aperture),
+                            "apertures of more than two cells must be CAD that the water can see",
+                            "model the deck's openings, or use a larger water.spacing"});
       continue;
     }
     // A particle on the very face of the domain is inside, one beyond is gone: the exit must begin inside.
-    const bool apart =
-        (c.high.array() < domain.box.lo.array()).any() || (c.low.array() > domain.box.hi.array()).any();
-    if (apart)
-      problems.push_back({c.where, "low", fmt::format("puts exit '{}' outside the domain", c.name),
-                          "nothing ever gets there", "move the exit inside or enlarge the domain"});
+    const Box& box = domain.box;
+    if (!box.overlaps({c.low, c.high}))
+      problems.push_back(
+          {c.where, "low", fmt::format("puts exit '{}' outside the domain", c.name),
+           "nothing can ever reach it",
+           fmt::format("move it into [{:.3g}, {:.3g}, {:.3g}] .. [{:.3g}, {:.3g}, {:.3g}] m", box.lo.x(),
+                       box.lo.y(), box.lo.z(), box.hi.x(), box.hi.y(), box.hi.z())});
   }
   if (!problems.empty()) throw InputError(std::move(problems));
 }

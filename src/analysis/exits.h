@@ -104,8 +104,10 @@ class ExitTally {
 };
 
 /// Checks exits against the scene.
+/// @param cell  of the water's grid [m], 0 = no water: a deck has apertures of at most two cells
 /// @throws InputError: an exit outside the domain, a deck whose part is missing or stops water
-void check_exits(const std::vector<ExitConfig>& configs, const Domain& domain, const Walls& walls);
+void check_exits(const std::vector<ExitConfig>& configs, const Domain& domain, const Walls& walls,
+                 double cell = 0);
 
 class Exits {
  public:

@@ -96,6 +96,7 @@ double column_level(std::vector<double> heights) {
 }
 
 void GaugeConfig::keys(Schema& s) {
+  where = s.here();
   s.choice(
       "kind", kind,
       {{"level", GaugeKind::level}, {"pressure", GaugeKind::pressure}, {"holdup", GaugeKind::holdup}},

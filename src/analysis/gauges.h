@@ -14,7 +14,7 @@ enum class GaugeKind {
   holdup,    ///< rock and water in a box
 };
 
-/// Keys under `probes: NAME:`.
+/// Keys under `gauges: NAME:`.
 struct GaugeConfig {
   std::string name;
   GaugeKind kind = GaugeKind::holdup;
@@ -22,6 +22,7 @@ struct GaugeConfig {
   double radius = 0;              ///< level: of the upright column that is looked at [m]
   std::optional<Vec3> low, high;  ///< pressure, holdup: box; holdup without one: everything [m]
   double interval = 0.05;         ///< [s]
+  Location where;                 ///< of the mapping, for messages
   void keys(Schema& s);
 };
 

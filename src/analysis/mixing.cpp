@@ -1,5 +1,7 @@
 #include "analysis/mixing.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +12,10 @@ namespace sluice {
 namespace {
 
 constexpr double not_known = std::numeric_limits<double>::quiet_NaN();
+/// Least s0^2 over sR^2 for a Lacey index: the share's variance then falls by half at least from apart to
+/// random, and the index of a random mixture scatters by less than its range.
+constexpr double least_contrast = 2;
+constexpr std::int64_t most_cells = 10'000'000;  // of one zone: 160 MB
 
 /// Cells of a box, slab by slab.
 struct CellGrid {
@@ -81,11 +87,12 @@ MixIndices mix_indices(const std::vector<MixCell>& cells, double grain_a, double
   const double random = p * q * (p * grain_b + q * grain_a) * filled / all;
   m.rsd = std::sqrt(m.variance) / p;
   m.segregation = m.variance / apart;
-  if (apart > random) m.lacey = (apart - m.variance) / (apart - random);
+  if (apart > least_contrast * random) m.lacey = (apart - m.variance) / (apart - random);
   return m;
 }
 
 void MixingConfig::keys(Schema& s) {
+  where = s.here();
   s.vector("low", low,
            {.unit = "m", .required = true, .doc = "corner of the box with the smallest coordinates"});
   s.vector("high", high, {.unit = "m", .required = true, .doc = "corner with the largest coordinates"});
@@ -100,6 +107,11 @@ void MixingConfig::keys(Schema& s) {
   if (s.given("low") && s.given("high") && !(low.array() < high.array()).all())
     s.problem("high", "is not above 'low' in every direction", "the box would have no volume",
               "swap or correct the corners");
+  else if (s.given("low") && s.given("high") && cell > 0 &&
+           ((high - low) / cell).cwiseMax(1).prod() > static_cast<double>(most_cells))
+    s.problem("cell", fmt::format("is {:.3g} m", cell),
+              fmt::format("the zone would have more than {} million cells", most_cells / 1'000'000),
+              "use about two top sizes");
 }
 
 MixingProbe::MixingProbe(MixingConfig config)

@@ -5,7 +5,8 @@
 /// and rock in a cell. Lacey (1954): M = (s0^2 - s^2) / (s0^2 - sR^2), 0 apart and 1 at random; s0^2 = p (1 -
 /// p) and sR^2 for grains of unequal size as Poole, Taylor & Wall (1964) have it: p q (p v_q + q v_p) / V
 /// with the effective grain volumes v = sum v^2 / sum v and the cell's content V. A rock counts in the cell
-/// of its centre, so cells should be about two top sizes or larger.
+/// of its centre, so cells should be about two top sizes or larger: where a cell holds so few grains that
+/// s0^2 is no more than twice sR^2, the index is noise over noise and NaN.
 
 #include <string>
 #include <vector>
@@ -22,9 +23,9 @@ struct MixCell {
 
 /// NaN where one component is absent or fewer than two cells hold anything.
 struct MixIndices {
-  double share = 0;     ///< p, of a in all
-  double variance = 0;  ///< s^2 of the cells' shares, weighted by their content
-  double lacey = 0;
+  double share = 0;        ///< p, of a in all
+  double variance = 0;     ///< s^2 of the cells' shares, weighted by their content
+  double lacey = 0;        ///< NaN too where the cells are too small for the grains: s0^2 <= 2 sR^2
   double rsd = 0;          ///< s / p
   double segregation = 0;  ///< Danckwerts (1952): s^2 / s0^2, 1 apart and 0 mixed
 };
@@ -40,6 +41,7 @@ struct MixingConfig {
   std::int64_t slabs = 10;
   double cell = 0;        ///< edge of a cell [m]
   double interval = 0.1;  ///< [s]
+  Location where;         ///< of the mapping, for messages
   void keys(Schema& s);
 };
 

@@ -8,6 +8,7 @@
 
 #include "dem/dem_system.h"
 #include "fluid/fluid_system.h"
+#include "geometry/audit_mesh.h"
 #include "inflow/feed_clock.h"
 
 namespace sluice {
@@ -17,8 +18,15 @@ namespace {
 /// Places tried for a rock before the box counts as full. Random places hold spheres up to about 38 % of the
 /// volume (Widom 1966); at 30 % about one place in 30 is free.
 constexpr int places_per_rock = 20000;
+/// Largest g H / c^2 of a fill. Weakly compressible water is meant for 0.01; beyond this it is a gas.
+constexpr double largest_squeeze = 0.2;
 /// Keeps the streams of fills apart from those of feeds.
 constexpr std::uint64_t water_fill_stream = 1ULL << 42, rock_fill_stream = 1ULL << 43;
+
+/// Volume [m3] of a sphere of this radius [m].
+double bounding_sphere(double radius) {
+  return 4.0 / 3.0 * std::numbers::pi * radius * radius * radius;
+}
 
 void check_inside(const Location& where, const Vec3& low, const Vec3& high, const Domain& domain) {
   if (domain.outside(low) || domain.outside(high))
@@ -46,6 +54,9 @@ FilledMass fill_water(const WaterFillConfig& c, const Walls& walls, const Inflow
   if (!c.inside.empty() && part == nullptr)
     throw InputError(InputProblem{c.where, "inside", fmt::format("names '{}'", c.inside),
                                   "there is no such part", "use the name of a closed part under 'parts'"});
+  if (part != nullptr && !std::ranges::all_of(audit_mesh(part->mesh), &PartAudit::closed))
+    throw InputError(InputProblem{c.where, "inside", fmt::format("names '{}', which is not closed", c.inside),
+                                  "an open sheet has no inside", "name a closed part or give a box only"});
   std::optional<SurfaceQuery> closed;
   if (part != nullptr) closed.emplace(part->mesh);
 
@@ -62,6 +73,13 @@ FilledMass fill_water(const WaterFillConfig& c, const Walls& walls, const Inflow
   const double cell = step.prod();
   const double clear = model.density * (1 - c.fines), grains = model.fines_density * c.fines;
   const double c_squared = std::pow(fluid.limits().sound_speed, 2);
+  const double weight = std::max(0.0, -target.gravity.z());
+  if (const double squeeze = weight * size.z() / c_squared; c.hydrostatic && squeeze > largest_squeeze)
+    throw InputError(InputProblem{
+        c.where, c.name, fmt::format("would be {:.3g} % denser at its bottom", 100 * std::expm1(squeeze)),
+        fmt::format("under {:.3g} m of water, at a sound speed of {:.3g} m/s", size.z(),
+                    fluid.limits().sound_speed),
+        "set 'water.deepest' to the depth, or raise 'water.fastest_bulk_speed' or 'water.sound_speed'"});
 
   Random random(target.seed, water_fill_stream + static_cast<std::uint64_t>(target.index));
   FilledMass filled;
@@ -74,7 +92,6 @@ FilledMass fill_water(const WaterFillConfig& c, const Walls& walls, const Inflow
         if (closed && !closed->inside(x)) continue;
         if (c.jitter > 0)
           for (int axis = 0; axis < 3; ++axis) x[axis] += c.jitter * step[axis] * random.uniform(-1, 1);
-        const double weight = std::max(0.0, -target.gravity.z());
         const double J = c.hydrostatic ? std::exp(-weight * depth / c_squared) : 1.0;
         const NewPoint point{.x = x,
                              .v = c.velocity,
@@ -111,8 +128,10 @@ FilledMass fill_rocks(const RockFillConfig& c, const ShapeMix& mix, const Inflow
   };
   Random random(target.seed, rock_fill_stream + static_cast<std::uint64_t>(target.index));
   const SizeDistribution sizes(c.sizes);
+  const std::vector<RockShape>& shapes = rocks.shapes();
   std::vector<Drawn> drawn;
-  double total = 0;
+  double total = 0, spheres = 0;
+  const double room = (c.high - c.low).prod();
   while (c.mass ? total < *c.mass : static_cast<std::int64_t>(drawn.size()) < c.count) {
     const double size = sizes.draw(random);
     const int shape = mix.draw(random);
@@ -120,14 +139,22 @@ FilledMass fill_rocks(const RockFillConfig& c, const ShapeMix& mix, const Inflow
     if (c.mass && !drawn.empty() && total + 0.5 * mass > *c.mass) break;
     drawn.push_back({size, mass, shape});
     total += mass;
+    spheres += bounding_sphere(shapes[static_cast<std::size_t>(shape)].bounding_radius * size);
+    if (spheres > room)
+      throw InputError(InputProblem{
+          c.where, c.mass ? "mass" : "count",
+          c.mass ? fmt::format("is {:.4g} kg", *c.mass) : fmt::format("asks for {} rocks", c.count),
+          fmt::format("the bounding spheres of the first {} rocks fill the box, with {:.3g} kg", drawn.size(),
+                      total),
+          "enlarge the box (rocks fall into place) or ask for less"});
   }
   std::stable_sort(drawn.begin(), drawn.end(),
                    [](const Drawn& a, const Drawn& b) { return a.size > b.size; });
 
   FilledMass filled;
-  double spheres = 0;
+  spheres = 0;
   for (const Drawn& d : drawn) {
-    const double R = rocks.shapes()[static_cast<std::size_t>(d.shape)].bounding_radius * d.size;
+    const double R = shapes[static_cast<std::size_t>(d.shape)].bounding_radius * d.size;
     const Vec3 lo = c.low + Vec3::Constant(R), hi = c.high - Vec3::Constant(R);
     bool placed = false;
     for (int i = 0; i < places_per_rock && !placed && (lo.array() <= hi.array()).all(); ++i) {
@@ -147,9 +174,9 @@ FilledMass fill_rocks(const RockFillConfig& c, const ShapeMix& mix, const Inflow
       throw InputError(
           InputProblem{c.where, c.mass ? "mass" : "count", fmt::format("asks for {} rocks", drawn.size()),
                        fmt::format("{} found room; their bounding spheres fill {:.0f} % of the box",
-                                   filled.count, 100 * spheres / (c.high - c.low).prod()),
+                                   filled.count, 100 * spheres / room),
                        "enlarge the box (rocks fall into place) or ask for fewer"});
-    spheres += 4.0 / 3.0 * std::numbers::pi * R * R * R;
+    spheres += bounding_sphere(R);
     filled.mass += d.mass;
     ++filled.count;
   }

@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 
+#include "processes/check_places.h"
+
 namespace sluice {
 
 namespace {
@@ -39,20 +41,25 @@ class Builder {
   void stop_if_bad() {
     if (!problems_.empty()) throw InputError(std::move(problems_));
   }
-  /// Runs one builder; its problems join the others.
+  /// Runs one builder; its problems join the others, those without a place at `section`.
   template <class Run>
-  void collect(const Run& run) {
+  void collect(const Run& run, const Location& section = {}) {
     try {
       run();
     } catch (const InputError& e) {
-      problems_.insert(problems_.end(), e.problems().begin(), e.problems().end());
+      for (InputProblem p : e.problems()) {
+        if (p.where.file.empty()) p.where = section;
+        problems_.push_back(std::move(p));
+      }
     }
   }
+  Location first_rock_source() const;
+  Location first_water_source() const;
 
   void look_at_phases();
   RockSources look_at_rocks();
   void need_contacts(const RockSources& sources, const std::vector<Wall>& walls);
-  void look_at_exits(const std::vector<Wall>& walls);
+  void look_at_exits();
   void make_rocks(const RockSources& sources);
   void make_water();
   void make_inflows(const RockSources& sources);
@@ -65,6 +72,15 @@ class Builder {
   BuiltProcess built_;
 };
 
+Location Builder::first_rock_source() const {
+  return config_.conveyors.empty() ? config_.rock_fills.front().where : config_.conveyors.front().where;
+}
+
+Location Builder::first_water_source() const {
+  if (!config_.pipes.empty()) return config_.pipes.front().where;
+  return config_.sprays.empty() ? config_.water_fills.front().where : config_.sprays.front().where;
+}
+
 void Builder::look_at_phases() {
   const bool rock_source = !config_.conveyors.empty() || !config_.rock_fills.empty();
   const bool water_source = !config_.pipes.empty() || !config_.sprays.empty() || !config_.water_fills.empty();
@@ -72,9 +88,9 @@ void Builder::look_at_phases() {
     refuse(config_.duration_at, "duration", "has nothing to simulate",
            "the process has neither 'rocks' nor 'water'", "add one of them");
   if (!config_.rocks && rock_source)
-    refuse(config_.duration_at, "rocks", "is missing", "conveyors or rock_fills bring rock", "add 'rocks:'");
+    refuse(first_rock_source(), "rocks", "is missing", "conveyors or rock_fills bring rock", "add 'rocks:'");
   if (!config_.water && water_source)
-    refuse(config_.duration_at, "water", "is missing", "pipes, sprays or water_fills bring water",
+    refuse(first_water_source(), "water", "is missing", "pipes, sprays or water_fills bring water",
            "add 'water:'");
   if (config_.rocks && !rock_source)
     refuse(config_.rocks_at, "rocks", "has no source", "no conveyor and no rock_fill",
@@ -141,31 +157,9 @@ void Builder::need_contacts(const RockSources& sources, const std::vector<Wall>&
            fmt::format("add {{between: [{}, {}], friction: 0.5, restitution: 0.3}}", a, b));
 }
 
-void Builder::look_at_exits(const std::vector<Wall>& walls) {
-  const Box box = config_.domain.domain().box;
-  for (const ExitConfig& exit : config_.exits) {
-    if (exit.kind == ExitKind::deck) {
-      const auto wall =
-          std::find_if(walls.begin(), walls.end(), [&](const Wall& w) { return w.name == exit.part; });
-      if (wall == walls.end()) {
-        refuse(exit.where, "part", "is '" + exit.part + "', which is not a wall",
-               "the deck is one of the walls", "name one of 'walls'");
-      } else if (wall->blocks != BlocksPhase::rocks_only) {
-        refuse(exit.where, "part", "also stops water", "a deck lets water through its apertures",
-               "set 'blocks: rocks_only' for the wall '" + exit.part + "'");
-      } else if (config_.water && exit.aperture > 2 * config_.water->spacing) {
-        refuse(exit.where, "aperture", fmt::format("is {:.3g} m", exit.aperture),
-               "apertures of more than two cells must be CAD that the water can see",
-               "model the deck's openings, or use a larger water.spacing");
-      }
-      continue;
-    }
-    const Box extent{exit.low, exit.high};
-    if (!box.overlaps(extent))
-      refuse(exit.where, exit.name, "lies outside the domain", "nothing can ever reach it",
-             fmt::format("move it into [{:.3g}, {:.3g}, {:.3g}] .. [{:.3g}, {:.3g}, {:.3g}] m", box.lo.x(),
-                         box.lo.y(), box.lo.z(), box.hi.x(), box.hi.y(), box.hi.z()));
-  }
+void Builder::look_at_exits() {
+  const double cell = config_.water ? config_.water->spacing : 0;
+  collect([&] { check_exits(config_.exits, built_.parts.domain, *built_.parts.walls, cell); });
   if (config_.stop && std::none_of(config_.exits.begin(), config_.exits.end(),
                                    [&](const ExitConfig& e) { return e.name == config_.stop->exit; }))
     refuse(config_.stop->where, "exit", "is '" + config_.stop->exit + "', which is not an exit",
@@ -233,17 +227,18 @@ BuiltProcess Builder::build() {
   collect([&] { materials_ = build_materials(config_); });
   collect([&] { walls = build_walls(config_); });
   stop_if_bad();
-  const RockSources sources = look_at_rocks();
-  if (config_.rocks) need_contacts(sources, walls);
-  look_at_exits(walls);
-  stop_if_bad();
-
   Parts& parts = built_.parts;
   parts.domain = config_.domain.domain();
   parts.gravity = config_.gravity;
   parts.walls = std::make_unique<Walls>(std::move(walls));
-  if (config_.rocks) collect([&] { make_rocks(sources); });
-  if (config_.water) collect([&] { make_water(); });
+  const RockSources sources = look_at_rocks();
+  if (config_.rocks) need_contacts(sources, parts.walls->all());
+  look_at_exits();
+  for (InputProblem& p : misplaced(config_)) problems_.push_back(std::move(p));
+  stop_if_bad();
+
+  if (config_.rocks) collect([&] { make_rocks(sources); }, config_.rocks_at);
+  if (config_.water) collect([&] { make_water(); }, config_.water_at);
   stop_if_bad();
   target_ = {parts.rocks.get(),
              parts.water.get(),

@@ -10,7 +10,7 @@ namespace sluice {
 /// @throws InputError with places: damaged or missing CAD, unknown part or material, repeated names
 std::vector<Wall> build_walls(const ProcessConfig& config);
 
-/// The table of materials with all pairs; pairs that `contacts` does not name take the defaults.
+/// The table of materials with all pairs; pairs that cannot touch need no contact.
 Materials build_materials(const ProcessConfig& config);
 
 struct BuiltProcess {

@@ -1,21 +1,31 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <span>
 
 #include "geometry/audit_mesh.h"
 #include "geometry/import_mesh.h"
 #include "processes/build_parts.h"
+#include "processes/check_places.h"
 
 namespace sluice {
 
 namespace {
 
-int material_index(const ProcessConfig& config, const std::string& name, const Location& where,
+/// What names a material: the key and where it stands.
+struct Naming {
+  const char* key;
+  Location where;
+};
+
+int material_index(const ProcessConfig& config, const std::string& name, const Naming& naming,
                    std::vector<InputProblem>& problems) {
   for (std::size_t i = 0; i < config.materials.size(); ++i)
     if (config.materials[i].name == name) return static_cast<int>(i);
   std::string known;
   for (const MaterialConfig& m : config.materials) known += (known.empty() ? "" : ", ") + m.name;
-  problems.push_back({where, "material", "is '" + name + "', which is not a material",
+  problems.push_back({naming.where, naming.key, "is '" + name + "', which is not a material",
                       known.empty() ? "'materials' is empty" : "there are: " + known,
                       "name one of them or add it"});
   return 0;
@@ -26,6 +36,12 @@ int material_index(const ProcessConfig& config, const std::string& name, const L
 void add_domain_walls(const ProcessConfig& config, std::vector<Wall>& walls,
                       std::vector<InputProblem>& problems) {
   const Domain domain = config.domain.domain();
+  const auto is_wall = [](Face face) { return face == Face::wall; };
+  if (std::none_of(domain.low.begin(), domain.low.end(), is_wall) &&
+      std::none_of(domain.high.begin(), domain.high.end(), is_wall))
+    return;
+  const int material = material_index(config, config.domain.wall_material,
+                                      {"wall_material", config.domain.wall_material_at}, problems);
   static const char* names[3] = {"x", "y", "z"};
   for (int axis = 0; axis < 3; ++axis)
     for (int end = 0; end < 2; ++end) {
@@ -42,9 +58,28 @@ void add_domain_walls(const ProcessConfig& config, std::vector<Wall>& walls,
       Wall wall;
       wall.name = std::string("domain_") + names[axis] + (end == 0 ? "_low" : "_high");
       wall.mesh = make_rectangle(wall.name, corners);
-      wall.material = material_index(config, config.domain.wall_material, {}, problems);
+      wall.material = material;
       walls.push_back(std::move(wall));
     }
+}
+
+/// The walls of one entry must be something, and somewhere in the domain.
+void check_entry(const WallConfig& entry, const Box& domain, std::span<const Wall> walls,
+                 std::vector<InputProblem>& problems) {
+  if (walls.empty()) return;  // no part was found; that is said already
+  Box bounds;
+  double area = 0;
+  for (const Wall& wall : walls) {
+    bounds.include(wall.mesh.bounds());
+    for (std::size_t t = 0; t < wall.mesh.triangles.size(); ++t) area += wall.mesh.area(static_cast<int>(t));
+  }
+  if (!(area > 0))
+    problems.push_back({entry.file_at, "file", fmt::format("names {}: has no area", entry.file.string()),
+                        "every facet is a line or a point", "export the part again"});
+  else if (!domain.overlaps(bounds))
+    problems.push_back({entry.file_at, "file", fmt::format("makes a wall in {}", reach_of(bounds)),
+                        fmt::format("the domain reaches {}", reach_of(domain)),
+                        "check 'unit', or enlarge the domain"});
 }
 
 }  // namespace
@@ -54,13 +89,26 @@ std::vector<Wall> build_walls(const ProcessConfig& config) {
   std::vector<InputProblem> problems;
   std::map<std::pair<std::string, LengthUnit>, TriMesh> read;  // a file named twice is read once
   for (const WallConfig& entry : config.walls) {
-    const int material = material_index(config, entry.material, entry.material_at, problems);
+    const int material = material_index(config, entry.material, {"material", entry.material_at}, problems);
     try {
       const auto key = std::make_pair(entry.file.string(), entry.unit);
       if (!read.count(key)) read[key] = import_mesh(entry.file, metres(entry.unit));
       const TriMesh& mesh = read[key];
+      const std::size_t first = walls.size();
       const std::vector<std::string> parts = entry.parts.empty() ? mesh.part_names : entry.parts;
       for (const std::string& part : parts) {
+        if (std::find(mesh.part_names.begin(), mesh.part_names.end(), part) == mesh.part_names.end()) {
+          try {
+            extract_part(mesh, part);
+          } catch (const InputError& e) {  // it knows the names and which one was meant
+            const InputProblem& p = e.problems().front();
+            problems.push_back(
+                {entry.parts_at, "parts",
+                 fmt::format("names '{}', which is no part of '{}'", part, entry.file.filename().string()),
+                 p.reason, p.suggestion});
+          }
+          continue;
+        }
         Wall wall;
         wall.name = parts.size() == 1 ? entry.name : part;
         wall.mesh = extract_part(mesh, part);
@@ -73,10 +121,12 @@ std::vector<Wall> build_walls(const ProcessConfig& config) {
                               "results name walls", "list the part once, or give the entry another name"});
         walls.push_back(std::move(wall));
       }
+      check_entry(entry, config.domain.domain().box, {walls.begin() + static_cast<long>(first), walls.end()},
+                  problems);
     } catch (const InputError& e) {
       for (InputProblem p : e.problems()) {
         // The file says what is wrong with it; the key says where it was named.
-        p.problem += p.where.file.empty() ? "" : " at " + p.where.text();
+        if (!p.where.file.empty()) p.problem = fmt::format("names {}: {}", p.where.text(), p.problem);
         p.where = entry.file_at;
         if (p.key.empty()) p.key = "file";
         problems.push_back(std::move(p));
@@ -93,13 +143,18 @@ Materials build_materials(const ProcessConfig& config) {
   std::vector<InputProblem> problems;
   for (const MaterialConfig& m : config.materials) materials.all.push_back({m.name, m.density});
   materials.pairs.assign(materials.all.size() * materials.all.size(), PairProperties{});
+  std::map<std::pair<std::size_t, std::size_t>, Location> stated;
   for (const ContactConfig& contact : config.contacts) {
-    if (contact.between.size() != 2) continue;
-    const auto a =
-        static_cast<std::size_t>(material_index(config, contact.between[0], contact.where, problems));
-    const auto b =
-        static_cast<std::size_t>(material_index(config, contact.between[1], contact.where, problems));
-    if (!problems.empty()) continue;
+    const std::size_t known = problems.size();
+    const Naming naming{"between", contact.where};
+    const auto a = static_cast<std::size_t>(material_index(config, contact.between.at(0), naming, problems));
+    const auto b = static_cast<std::size_t>(material_index(config, contact.between.at(1), naming, problems));
+    if (problems.size() > known) continue;
+    const auto [first, fresh] = stated.emplace(std::minmax(a, b), contact.where);
+    if (!fresh)
+      problems.push_back({contact.where, "between",
+                          fmt::format("names {} and {} again", contact.between[0], contact.between[1]),
+                          fmt::format("the pair stands in line {} already", first->second.line), "keep one"});
     materials.pairs[a * materials.all.size() + b] = contact.properties;
     materials.pairs[b * materials.all.size() + a] = contact.properties;
   }

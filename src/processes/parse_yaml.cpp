@@ -105,7 +105,11 @@ InputNode parse_yaml(const std::string& text, const std::string& place, const st
                       "indentation, quotes or brackets do not match", "compare with the lines above"});
   }
   if (documents.empty() || (documents.size() == 1 && documents[0].IsNull()))
-    throw InputError({{place, 1, 1}, "", "the file is empty", "a section with keys is needed", ""});
+    throw InputError({{place, 1, 1},
+                      "",
+                      "the file is empty",
+                      "a section with keys is needed",
+                      "write 'key: value' lines"});
   if (documents.size() > 1)
     throw InputError({builder.location(documents[1].Mark()), "", "a second document begins",
                       "a file holds one", "remove the line '---' or split the file"});

@@ -34,6 +34,7 @@ void DomainConfig::keys(Schema& s) {
   face("z_low", low_face[2], "face at low z");
   face("z_high", high_face[2], "face at high z");
   s.text("wall_material", wall_material, {.doc = "material of the faces that are walls"});
+  wall_material_at = s.at("wall_material");
   for (int k = 0; k < 3; ++k) {
     static const char* names[3][2] = {{"x_low", "x_high"}, {"y_low", "y_high"}, {"z_low", "z_high"}};
     if ((low_face[k] == Face::periodic) != (high_face[k] == Face::periodic))
@@ -64,12 +65,12 @@ void ContactConfig::keys(Schema& s) {
       "between", between,
       {.required = true, .doc = "two materials; the same one twice for itself", .example = "[rock, steel]"});
   s.number("restitution", properties.restitution,
-           {.above = 0, .at_most = 1, .doc = "normal speed after over before impact"});
+           {.required = true, .above = 0, .at_most = 1, .doc = "normal speed after over before impact"});
   s.number("friction", properties.friction,
-           {.at_least = 0, .doc = "Coulomb coefficient, static and sliding"});
+           {.required = true, .at_least = 0, .doc = "Coulomb coefficient, static and sliding"});
   s.number("rolling", properties.rolling,
            {.at_least = 0, .doc = "rolling resistance coefficient: torque over radius times normal force"});
-  if (!between.empty() && between.size() != 2)
+  if (s.given("between") && between.size() != 2)
     s.problem("between", "does not name two materials", "a contact has two sides", "write [rock, steel]");
 }
 
@@ -80,6 +81,8 @@ void WallConfig::keys(Schema& s) {
            {{"mm", LengthUnit::mm}, {"cm", LengthUnit::cm}, {"m", LengthUnit::m}, {"in", LengthUnit::inch}},
            {.required = true, .doc = "length unit of the file (STL and OBJ do not say; glTF is in m)"});
   s.texts("parts", parts, {.doc = "names of parts in the file; without it, all of them"});
+  if (s.given("parts") && parts.empty())
+    s.problem("parts", "names no part", "the entry would make no wall", "leave it out to take all parts");
   s.text("material", material, {.required = true, .doc = "one of 'materials'"});
   s.vector(
       "surface_velocity", surface_velocity,
@@ -94,6 +97,7 @@ void WallConfig::keys(Schema& s) {
   s.flag("repair", repair,
          {.doc = "merge equal vertices, drop degenerate and duplicate facets, orient facets alike"});
   file_at = s.at("file");
+  parts_at = s.at("parts");
   material_at = s.at("material");
 }
 

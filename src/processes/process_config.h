@@ -27,6 +27,7 @@ struct DomainConfig {
   std::array<Face, 3> low_face{Face::open, Face::open, Face::open};
   std::array<Face, 3> high_face{Face::open, Face::open, Face::open};
   std::string wall_material;  ///< of the faces that are walls
+  Location wall_material_at;
   void keys(Schema& s);
   Domain domain() const;
 };
@@ -60,7 +61,7 @@ struct WallConfig {
   Vec3 surface_velocity = Vec3::Zero();  ///< [m/s]
   BlocksPhase blocks = BlocksPhase::both;
   bool repair = false;
-  Location where, file_at, material_at;
+  Location where, file_at, parts_at, material_at;
   void keys(Schema& s);
 };
 

@@ -28,8 +28,10 @@ TEST_F(ProcessDocumentTest, NoticesAQuoteThatIsNeverClosed) {
 }
 
 TEST_F(ProcessDocumentTest, RefusesWhatIsNotOneSection) {
-  EXPECT_EQ(wrong(""), "process.yaml:1:1: the file is empty (a section with keys is needed)");
-  EXPECT_EQ(wrong("# nothing\n"), "process.yaml:1:1: the file is empty (a section with keys is needed)");
+  EXPECT_EQ(wrong(""),
+            "process.yaml:1:1: the file is empty (a section with keys is needed) write 'key: value' lines");
+  EXPECT_EQ(wrong("# nothing\n"),
+            "process.yaml:1:1: the file is empty (a section with keys is needed) write 'key: value' lines");
   EXPECT_EQ(wrong("- a\n- b\n"),
             "process.yaml:1:1: the file is a list (a section with keys is needed) write 'key: value' lines");
   EXPECT_NE(wrong("title: a\n---\ntitle: b\n").find("a second document begins"), std::string::npos);
