@@ -56,10 +56,12 @@ CsvTable exit_table(const std::vector<ExitBinRow>& rows) {
 
 CsvTable mixing_table(const std::vector<MixingTableRow>& rows) {
   CsvTable table;
-  table.columns = {"time_s",   "zone",       "position_m",        "rock_kg",
-                   "water_kg", "rock_lacey", "water_to_rock_cov", "wetted_rock_fraction"};
+  table.columns = {"time_s",          "zone",
+                   "position_m",      "rock_kg",
+                   "water_kg",        "water_rock_lacey",
+                   "water_share_rsd", "wetted_rock_fraction"};
   for (const MixingTableRow& r : rows)
-    table.add({r.time_s, r.zone, r.position_m, r.rock_kg, r.water_kg, r.rock_lacey, r.water_to_rock_cov,
+    table.add({r.time_s, r.zone, r.position_m, r.rock_kg, r.water_kg, r.water_rock_lacey, r.water_share_rsd,
                r.wetted_rock_fraction});
   return table;
 }

@@ -41,8 +41,8 @@ struct MixingTableRow {
   std::string zone;               ///< name of the zone, or of the station along the box
   double position_m = not_known;  ///< along the box
   double rock_kg = not_known, water_kg = not_known;
-  double rock_lacey = not_known;            ///< of rock sizes: 0 segregated, 1 random mixture
-  double water_to_rock_cov = not_known;     ///< over the zone's cells
+  double water_rock_lacey = not_known;      ///< of water and rock: 0 apart, 1 random mixture
+  double water_share_rsd = not_known;       ///< of the water's share of the volume, over the zone's cells
   double wetted_rock_fraction = not_known;  ///< of rock mass
 };
 CsvTable mixing_table(const std::vector<MixingTableRow>& rows);

@@ -196,8 +196,8 @@ PageSection mixing_section(const RunResults& run) {
     const char* title;
   };
   std::string charts;
-  for (const Index& index : {Index{"rock_lacey", "Lacey index of rock sizes (0 segregated, 1 mixed)"},
-                             Index{"water_to_rock_cov", "Unevenness of water to rock (CoV, 0 = even)"},
+  for (const Index& index : {Index{"water_rock_lacey", "Lacey index of water and rock (0 apart, 1 mixed)"},
+                             Index{"water_share_rsd", "Unevenness of the water share (RSD, 0 = even)"},
                              Index{"wetted_rock_fraction", "Share of the rock that is wetted"}}) {
     const std::vector<double> values = run.mixing->numbers(index.column);
     std::vector<ChartSeries> series;
@@ -213,8 +213,8 @@ PageSection mixing_section(const RunResults& run) {
   }
   if (charts.empty()) return section;
   section.body =
-      "<p class=\"note\">How well water and rock, and small and large rocks, are mixed on their way "
-      "through.</p><div class=\"charts\">" +
+      "<p class=\"note\">How well water and rock are mixed on their way through, from the contents of cells. "
+      "There is no Lacey index where cells are too small for the grains in them.</p><div class=\"charts\">" +
       charts + "</div>";
   return section;
 }

@@ -163,8 +163,8 @@ void write_tables(const RunFolder& folder, SampleScene scene, int seed) {
       MixingTableRow& row = mixing.emplace_back();
       row.time_s = 0.5 * k;
       row.zone = zone;
-      row.rock_lacey = 0.6 + 0.3 * (1 - std::exp(-0.3 * k)) - (zone[0] == 'u' ? 0.15 : 0);
-      if (wet) row.water_to_rock_cov = 0.9 * std::exp(-0.1 * k) + 0.3;
+      row.water_rock_lacey = 0.6 + 0.3 * (1 - std::exp(-0.3 * k)) - (zone[0] == 'u' ? 0.15 : 0);
+      if (wet) row.water_share_rsd = 0.9 * std::exp(-0.1 * k) + 0.3;
     }
   }
   write_csv(folder.mixing(), mixing_table(mixing));
