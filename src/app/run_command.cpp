@@ -112,10 +112,17 @@ Run::Run(const RunOptions& options) : options_(options) {
     // The state is restored before the recorder opens its files at the right place.
     const auto found = find_checkpoint(folder_);
     if (!found)
-      throw EnvironmentError(fmt::format("{}: there is no checkpoint to resume from; start without --resume", folder_.root.string()));
+      throw EnvironmentError(fmt::format("{}: there is no checkpoint to resume from; start without --resume",
+                                         folder_.root.string()));
     // Before anything in the folder is touched.
     refuse_other_process(folder_, found->stamp, source_.sha256);
     resume_time = found->stamp.time;
+    if (*resume_time > end_ + simulation_->time_step().dt)
+      throw InputError(InputProblem{{options.until.empty() ? options.process.string() : "--until", 0, 0},
+                                    options.until.empty() ? "duration" : "until",
+                                    fmt::format("is {:.6g} s", end_),
+                                    fmt::format("the run is at {:.6g} s already", *resume_time),
+                                    "give a later time"});
     recorder_ = std::make_unique<Recorder>(config_, folder_, *simulation_, resume_time);
     const RestoredCheckpoint restored =
         load_checkpoint(folder_, source_.sha256, [&](StateArchive& a) { exchange(a); });

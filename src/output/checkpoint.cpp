@@ -113,17 +113,24 @@ std::optional<RestoredCheckpoint> find_checkpoint(const RunFolder& folder) {
   return open->found;
 }
 
+void refuse_other_process(const RunFolder& folder, const CheckpointStamp& stamp,
+                          const std::string& process_sha256) {
+  if (stamp.process_sha256 == process_sha256) return;
+  refuse_file(folder.checkpoint(),
+              {.problem = "was saved by another process",
+               .reason = fmt::format(
+                   "the process file, what it extends or a --set has changed: sha256 {:.12} then, {:.12} now",
+                   stamp.process_sha256, process_sha256),
+               .suggestion = "restore the process file and its --set, or start anew in another folder"});
+}
+
 RestoredCheckpoint load_checkpoint(const RunFolder& folder, const std::string& process_sha256,
                                    const ExchangeState& exchange) {
   auto open = open_newest(folder);
   if (!open)
     throw EnvironmentError(
         fmt::format("{}: has no checkpoint to resume from; start without --resume", folder.root.string()));
-  if (open->found.stamp.process_sha256 != process_sha256)
-    refuse_file(folder.checkpoint(),
-                {"was saved by another process",
-                 fmt::format("process {}, now {}", open->found.stamp.process_sha256, process_sha256),
-                 "restore the process file, or start anew in another folder"});
+  refuse_other_process(folder, open->found.stamp, process_sha256);
   exchange(*open->archive);
   return open->found;
 }

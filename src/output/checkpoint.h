@@ -39,6 +39,10 @@ struct RestoredCheckpoint {
 /// @throws EnvironmentError  all there are are damaged, or of another format version
 std::optional<RestoredCheckpoint> find_checkpoint(const RunFolder& folder);
 
+/// @throws InputError  the checkpoint was saved by another process file
+void refuse_other_process(const RunFolder& folder, const CheckpointStamp& stamp,
+                          const std::string& process_sha256);
+
 /// Restores from the newest whole checkpoint of this process.
 /// @throws EnvironmentError  none, all damaged, another format version, or the state does not fit
 /// @throws InputError  saved by another process file

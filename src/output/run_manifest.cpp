@@ -298,6 +298,7 @@ RunManifest read_manifest(const std::filesystem::path& file) {
   const std::string text = read_whole_file(file);
   try {
     const Json json = Json::parse(text);
+    if (!json.is_object() || !json.contains("outcome")) throw std::runtime_error("it has no 'outcome'");
     RunManifest manifest;
     Reader reader(json);
     fields(reader, manifest);

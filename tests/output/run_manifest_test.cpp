@@ -157,7 +157,8 @@ TEST(RunManifest, SurvivesATitleThatIsNotUtf8) {
 
 TEST(RunManifest, RefusesWhatIsNoManifest) {
   const TemporaryFolder temporary;
-  for (const char* text : {"", "[]", "{\"sluice\": 3}", "{\"time\": {\"steps\": \"many\"}}", "{"}) {
+  for (const char* text :
+       {"", "[]", "{\"a\": 1}", "{\"sluice\": 3}", "{\"time\": {\"steps\": \"many\"}}", "{"}) {
     write_atomically(temporary.path / "run.json", text);
     EXPECT_THROW(read_manifest(temporary.path / "run.json"), InputError) << text;
   }
