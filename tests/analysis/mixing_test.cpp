@@ -42,6 +42,15 @@ TEST(MixIndices, OfEvenCellsHaveNoSegregation) {
   EXPECT_GE(m.lacey, 1);
 }
 
+TEST(MixIndices, HaveNoLaceyIndexWhereCellsHoldAGrainOrTwo) {
+  // p = 1/2: s0^2 = 1/4; grains of 1 in cells of content 2 give sR^2 = 1/8, of content 2.5 give 1/10.
+  const MixIndices few = mix_indices({{2, 0}, {1, 1}, {0, 2}}, 1, 1);
+  EXPECT_TRUE(std::isnan(few.lacey));
+  EXPECT_TRUE(std::isfinite(few.segregation));
+  EXPECT_TRUE(std::isfinite(few.rsd));
+  EXPECT_TRUE(std::isfinite(mix_indices({{2.5, 0}, {1.25, 1.25}, {0, 2.5}}, 1, 1).lacey));
+}
+
 TEST(MixIndices, AreUnknownWithoutBothComponents) {
   EXPECT_TRUE(std::isnan(mix_indices({{1, 0}, {2, 0}}, 1, 1).lacey));
   EXPECT_TRUE(std::isnan(mix_indices({{1, 1}}, 1, 1).rsd));
