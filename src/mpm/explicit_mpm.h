@@ -101,8 +101,8 @@ class ExplicitMpm final : public FluidSystem {
     Real bulk, fill, dilation, least_fill;
     Real moment[9];  ///< of change + velocity, row-major like C [m/s]
     Real bulk_moment[3];
+    Real kept[6];  ///< of C: I - 4 sum b w d d^T, as xx yy zz yz xz xy
     Real fill_moment[3];
-    bool beside_wall;  ///< some nodes are hidden
   };
 
   std::vector<RemovedPoint> remove_slots(std::vector<std::uint32_t>& slots);
@@ -123,6 +123,7 @@ class ExplicitMpm final : public FluidSystem {
   void gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, const NodeTile& tile,
                         Gathered& g, WallImpulses& impulses) const;
   void gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
+  void gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   Real gather_void_fraction(const Point& p, int local, const NodeTile& tile) const;
   void update(Point& p, const Gathered& g, Real (&moved)[3]) const;
   void stop_at_walls(Point& p, std::int32_t cell_key, std::int32_t stencil, WallImpulses& impulses) const;

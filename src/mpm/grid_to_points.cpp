@@ -116,7 +116,32 @@ void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, 
   g.fill = sum[fill];
   g.dilation = sum[dilation];
   g.least_fill = tile.least_fill[local];
-  g.beside_wall = false;
+  gather_kept(p, local, tile, g);
+}
+
+/// Nodes pull at a point's C with b w d (x) d, so that much of C is what they know of it. With b times I / 4
+/// instead, C would grow where b differs from node to node, as at the edge of a spray: a lone point finds its
+/// own C on the grid, and what it gets back must not exceed what it gives up.
+template <class Real>
+void ExplicitMpm<Real>::gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const {
+  for (Real& kept : g.kept) kept = 0;
+  if (g.bulk > 1 - Real(1e-5)) return;  // all of C is known; float sums of weights end here
+  for (int r = 0; r < 3; ++r) g.kept[r] = 1;
+  if (!(g.bulk > 0)) return;
+  const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
+  const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const Real b = corner[i + 6 * j + 36 * k][node_lane::mass];
+        const Real known = 4 * b * x.w[i] * y.w[j] * z.w[k];
+        g.kept[0] -= known * x.d[i] * x.d[i];
+        g.kept[1] -= known * y.d[j] * y.d[j];
+        g.kept[2] -= known * z.d[k] * z.d[k];
+        g.kept[3] -= known * y.d[j] * z.d[k];
+        g.kept[4] -= known * x.d[i] * z.d[k];
+        g.kept[5] -= known * x.d[i] * y.d[j];
+      }
 }
 
 /// New velocity, C and J of a point, and how far it moves [cells].
@@ -133,11 +158,13 @@ void ExplicitMpm<Real>::update(Point& p, const Gathered& g, Real (&moved)[3]) co
     moved[r] = (v + to_grid) * dt / h;
     const Real old = p.v[r];
     p.v[r] = v + a * to_grid;
-    // What the grid does not know of C stays as it was, but not beside walls: nothing damps it there, and in
-    // a wedge it would feed back through the mirrored nodes.
-    const Real kept = g.beside_wall ? Real(0) : 1 - g.bulk;
+    // What the grid does not know of C stays as it was.
+    const Real row[3] = {p.C[3 * r], p.C[3 * r + 1], p.C[3 * r + 2]};
+    const Real kept[3] = {g.kept[0] * row[0] + g.kept[5] * row[1] + g.kept[4] * row[2],
+                          g.kept[5] * row[0] + g.kept[1] * row[1] + g.kept[3] * row[2],
+                          g.kept[4] * row[0] + g.kept[3] * row[1] + g.kept[2] * row[2]};
     for (int c = 0; c < 3; ++c)
-      p.C[3 * r + c] = kept * p.C[3 * r + c] + 4 / h * (g.moment[3 * r + c] - old * g.bulk_moment[c]);
+      p.C[3 * r + c] = kept[c] + 4 / h * (g.moment[3 * r + c] - old * g.bulk_moment[c]);
   }
 
   // J: average of the departure from the local pressure gradient, then the flow, then the density's pull.

@@ -87,7 +87,9 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     return;
   }
 
-  g.beside_wall = true;
+  // All of C is taken anew: nothing damps the rest here, and in a wedge it would feed back through mirrored
+  // nodes.
+  for (Real& kept : g.kept) kept = 0;
   const double h = config_.spacing;
   const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
   Node sum, sum_axis[3];
