@@ -178,13 +178,19 @@ TEST(FillRocks, RefusesWhatDoesNotFit) {
   RockFillConfig c = pile();
   c.low = Vec3(-0.1, -0.1, 0);
   c.high = Vec3(0.1, 0.1, 0.2);
-  try {
-    box.fill(c);
-    FAIL() << "200 rocks in 8 litres";
-  } catch (const InputError& error) {
-    EXPECT_EQ(error.problems().front().key, "count");
-    EXPECT_NE(error.problems().front().reason.find("found room"), std::string::npos);
-  }
+  const auto expect_refused = [&](std::int64_t count, const char* reason) {
+    c.count = count;
+    try {
+      box.fill(c);
+      FAIL() << count << " rocks in a small box";
+    } catch (const InputError& error) {
+      EXPECT_EQ(error.problems().front().key, "count");
+      EXPECT_NE(error.problems().front().reason.find(reason), std::string::npos) << error.what();
+    }
+  };
+  expect_refused(2'000'000'000, "fill the box");  // seen before any is placed
+  c.high.x() = -0.06;                             // narrower than most rocks
+  expect_refused(20, "found room");
 }
 
 TEST(FillRocks, RefusesAnUnknownMaterialAndABoxOutside) {
