@@ -25,6 +25,27 @@ double film_share(double s, double filled) {
   return (1 - thickness) * spline + thickness * deep;
 }
 
+/// Gives a wall the impulse of a node. In a corner the node holds only the water that it sees: the mirror
+/// image of what the other walls hide presses on this wall too. That part of the impulse went to those walls
+/// when the points' hidden nodes were counted, but nothing holds it there, along the wall. The first layer of
+/// nodes stands for what the wall hides.
+void add_with_images(std::span<const WallPlane> planes, std::size_t k, double spacing, const Vec3& impulse,
+                     const Vec3& at, WallImpulses& out) {
+  out.add(planes[k].wall, impulse, at);
+  for (std::size_t j = 0; j < planes.size(); ++j) {
+    if (j == k || planes[j].wall == planes[k].wall) continue;
+    const Vec3& normal = planes[j].normal;
+    const double s =
+        planes[j].distance / spacing - normal.dot(node_offset);  // where the node counts as being
+    if (s >= 1) continue;
+    const double image =
+        (spline_beyond(1 - s) + spline_beyond(2 - s)) / (1 - spline_beyond(std::max(0.0, s)));
+    const Vec3 moved = image * (impulse - impulse.dot(normal) * normal);
+    out.add(planes[k].wall, moved, at);
+    out.add(planes[j].wall, -moved, at);
+  }
+}
+
 template <class Real>
 Vec3 vector_at(const Lanes<Real>& node, int lane) {
   return {static_cast<double>(node[lane]), static_cast<double>(node[lane + 1]),
@@ -108,14 +129,15 @@ void ExplicitMpm<Real>::close_pressure(Node& node, double volume, std::span<cons
   const double chi = static_cast<double>(node[near_wall]) / m;
   const Vec3 centre_offset = config_.spacing * vector_at(node, centre);  // of the water from the node
   Vec3 c = vector_at(node, gradient);
-  for (const WallPlane& plane : planes) {
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const WallPlane& plane = planes[k];
     const double cn = c.dot(plane.normal);
     if (cn <= 0) continue;
     const double at_wall =
         std::max(0.0, mean_pressure + density * gravity_.dot(plane.distance * plane.normal - centre_offset));
     const Vec3 impulse = -step_.dt * chi * at_wall * cn * plane.normal;
     add_to(node, change, impulse / m);
-    impulses.add(plane.wall, -impulse, at + plane.distance * plane.normal);
+    add_with_images(planes, k, config_.spacing, -impulse, at + plane.distance * plane.normal, impulses);
     c -= cn * plane.normal;
   }
 }
@@ -131,15 +153,16 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, std::span<const
   const bool pressed = node[dilation] < 0;
   Vec3 v = vector_at(node, velocity) + vector_at(node, change);
   const Vec3 before = v;
-  for (const WallPlane& plane : planes) {
+  for (std::size_t k = 0; k < planes.size(); ++k) {
+    const WallPlane& plane = planes[k];
     const Vec3 contact = at + plane.distance * plane.normal;
     const Vec3 surface = field_->surface_velocity(plane.wall, contact);
     const double s = plane.distance / h;
     const double hold = chi * 2 * spline_beyond(s);
     const double vn = v.dot(plane.normal);
-    Vec3 change_here = Vec3::Zero();
+    Vec3 held = Vec3::Zero(), change_here = Vec3::Zero();
     if (vn > 0 || pressed) {
-      change_here = -hold * vn * plane.normal;
+      held = change_here = -hold * vn * plane.normal;
       impulses.add_impact(plane.wall, std::max(0.0, 0.5 * m * vn * vn * (1 - (1 - hold) * (1 - hold))));
     }
     const Vec3 sliding = v - surface - (v - surface).dot(plane.normal) * plane.normal;
@@ -157,7 +180,8 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, std::span<const
       change_here -= (1 - kept) * sliding;
       impulses.add_sliding(plane.wall, 0.5 * m * sliding.squaredNorm() * (1 - kept * kept));
     }
-    impulses.add(plane.wall, -m * change_here, contact);
+    add_with_images(planes, k, h, -m * held, contact, impulses);
+    impulses.add(plane.wall, -m * (change_here - held), contact);
     v += change_here;
   }
   add_to(node, change, v - before);

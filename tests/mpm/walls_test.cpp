@@ -97,6 +97,44 @@ TEST(StillColumn, KeepsItsBottomPressure) {
   EXPECT_LT(std::sqrt(speed2), 0.02);
 }
 
+// Walls without friction carry none of the water's weight, wherever they stand to the grid: the floor has it
+// all.
+TEST(StillColumn, BetweenSlipperySidesRestsOnItsFloor) {
+  const double depth = 0.5, h = depth / 16, width = 4 * h;
+  for (const double shift : {0.0, 0.4}) {
+    const Vec3 below(-(2 + shift) * h, -2 * h, -(2 + shift) * h);  // of the domain: a corner of the grid
+    const Domain domain = open_box(below, Vec3(width + 2 * h, width + 2 * h, depth + 6 * h));
+    std::vector<Wall> parts;
+    const Vec3 lo(0, 0, 0), hi(width, width, depth + 4 * h);
+    parts.push_back(sheet("floor", 2, 0.0, lo, hi));
+    for (const int axis : {0, 1})
+      for (const double at : {0.0, width})
+        parts.push_back(sheet("side" + std::to_string(parts.size()), axis, at, lo, hi));
+    const Walls walls(std::move(parts));
+    MpmConfig config;
+    config.spacing = h;
+    config.deepest = depth;
+    config.fastest_bulk_speed = std::sqrt(g * depth);
+    config.sound_speed = 10 * std::sqrt(g * depth);
+    config.wall_slip = WallSlip::slip;
+    auto water = make_mpm(config, domain, gravity, walls);
+    WaterFill fill;
+    fill.box = {lo, Vec3(width, width, depth)};
+    fill.jitter = 0.1;
+    fill.J = [&](const Vec3& x) { return still_J(depth - x.z(), *config.sound_speed); };
+    fill_with_water(*water, h / 2, fill);
+    const double dt = water->limits().step;
+    const int steps = static_cast<int>(0.5 / dt);
+    double early = 0;
+    for (int n = 0; n < steps; ++n) {
+      if (n == steps / 2) early = water->wall_loads()[0].impulse.z();
+      step_water(*water, n * dt, dt);
+    }
+    const double force = -(water->wall_loads()[0].impulse.z() - early) / ((steps - steps / 2) * dt);
+    EXPECT_NEAR(force / (rho * g * depth * width * width), 1.0, 0.05) << "shifted by " << shift << " cells";
+  }
+}
+
 struct SheetResult {
   double force_ratio = 0;
   std::size_t beyond = 0;
