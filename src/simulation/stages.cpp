@@ -48,7 +48,8 @@ std::vector<Stage> build_stages(Parts& parts, const TimeStep& step) {
         [&, dt, offset](const StepSpan& s) { parts.water->points_to_grid(s.t + offset, dt); });
     if (parts.coupling && k == 0)
       add("coupling.drag", [&](const StepSpan& s) { parts.coupling->drag(s.dt); });
-    if (!parts.walls->empty()) add("water.walls", [&, dt](const StepSpan&) { parts.water->walls(dt); });
+    // In a scene without walls too: it is where the fluid's nodes get their velocity.
+    add("water.walls", [&, dt](const StepSpan&) { parts.water->walls(dt); });
     add("water.grid_to_points", [&, dt](const StepSpan&) { parts.water->grid_to_points(dt); });
     if (parts.coupling && k == 0)
       add("coupling.fluid_to_grid", [&, dt](const StepSpan&) { parts.coupling->fluid_to_grid(dt); });
