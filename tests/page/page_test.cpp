@@ -38,6 +38,13 @@ int run(const std::string& command) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
+/// True for an empty picture and for one that nothing was drawn into.
+bool is_one_colour(const decltype(Visit::screen)& picture) {
+  for (std::size_t k = 3; k < picture.rgb.size(); ++k)
+    if (picture.rgb[k] != picture.rgb[k - 3]) return false;
+  return true;
+}
+
 /// No host name resolves in this browser: whatever the page asks of a network fails and is logged.
 Visit visit(const fs::path& page, const fs::path& work) {
   const std::string common =
@@ -45,18 +52,22 @@ Visit visit(const fs::path& page, const fs::path& work) {
       " --headless=new --no-sandbox --disable-gpu-sandbox --use-angle=swiftshader --enable-unsafe-swiftshader"
       " --hide-scrollbars --no-first-run --disable-extensions --disable-background-networking"
       " --host-resolver-rules=\"MAP * ~NOTFOUND\" --enable-logging=stderr --window-size=1380,1000 "
-      "--virtual-time-budget=8000 --user-data-dir='" +
+      "--user-data-dir='" +
       (work / "profile").string() + "'";
   Visit v;
-  v.status = run(common + " --dump-dom 'file://" + page.string() + "' >'" + (work / "dom").string() +
-                 "' 2>'" + (work / "log").string() + "'");
+  v.status = run(common + " --virtual-time-budget=8000 --dump-dom 'file://" + page.string() + "' >'" +
+                 (work / "dom").string() + "' 2>'" + (work / "log").string() + "'");
   v.document = read_whole_file(work / "dom");
   v.log = read_whole_file(work / "log");
+  // A software renderer draws each frame of the 3D view slowly. Over a long virtual time, or on a busy
+  // machine, headless Chromium gives up waiting for it and hands out a sheet in one colour: that is taken
+  // again.
   const fs::path shot = work / "screen.png";
-  if (run(common + " --screenshot='" + shot.string() + "' 'file://" + page.string() + "#view3d' >'" +
-          (work / "out").string() + "' 2>&1") == 0 &&
-      fs::exists(shot))
-    v.screen = read_png(read_whole_file(shot));
+  for (int attempt = 0; attempt < 4 && is_one_colour(v.screen); ++attempt)
+    if (run(common + " --virtual-time-budget=1500 --screenshot='" + shot.string() + "' 'file://" +
+            page.string() + "#view3d' >'" + (work / "out").string() + "' 2>&1") == 0 &&
+        fs::exists(shot))
+      v.screen = read_png(read_whole_file(shot));
   return v;
 }
 
