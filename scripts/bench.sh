@@ -10,7 +10,7 @@ cmake --preset release >/dev/null
 cmake --build --preset release --target sluice_bench
 threads="${OMP_NUM_THREADS:-$(nproc)}"
 export OMP_NUM_THREADS="$threads"
-text=$(build/release/sluice_bench --benchmark_filter="$filter" --benchmark_counters_tabular=true \
+text=$(build/release/sluice_bench --benchmark_filter="$filter" --benchmark_counters_tabular=true --benchmark_min_time=0.3 \
   --benchmark_out=reports/benchmarks.json --benchmark_out_format=json 2>/dev/null)
 {
   echo "# Benchmarks"
