@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "base/find_by_id.h"
 #include "base/parallel.h"
 
 namespace sluice {
@@ -114,24 +115,9 @@ void Exits::collect(double t, DemSystem* rocks, FluidSystem* water) {
 
 std::vector<Vec3> Exits::places_before(const Rocks& rocks) const {
   std::vector<Vec3> before = rocks.x;
-  std::vector<std::size_t> by_id;
-  for (std::size_t i = 0; i < rocks.count(); ++i) {
-    if (i < rock_before_id_.size() && rock_before_id_[i] == rocks.id[i]) {
-      before[i] = rock_before_[i];
-      continue;
-    }
-    // The order has changed: look the rock up.
-    if (by_id.empty()) {
-      by_id.resize(rock_before_id_.size());
-      std::iota(by_id.begin(), by_id.end(), std::size_t{0});
-      std::sort(by_id.begin(), by_id.end(),
-                [&](std::size_t a, std::size_t b) { return rock_before_id_[a] < rock_before_id_[b]; });
-    }
-    const auto at =
-        std::lower_bound(by_id.begin(), by_id.end(), rocks.id[i],
-                         [&](std::size_t a, std::uint64_t id) { return rock_before_id_[a] < id; });
-    if (at != by_id.end() && rock_before_id_[*at] == rocks.id[i]) before[i] = rock_before_[*at];
-  }
+  FindById earlier(rock_before_id_);
+  for (std::size_t i = 0; i < rocks.count(); ++i)
+    if (const auto at = earlier.find(rocks.id[i])) before[i] = rock_before_[*at];
   return before;
 }
 

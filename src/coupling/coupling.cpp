@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/find_by_id.h"
 #include "base/parallel.h"
 #include "coupling/coupling_grid.h"
 #include "coupling/wetting.h"
@@ -236,7 +237,7 @@ void Coupling::Implementation::evaluate_buoyancy(double dt) {
   const Rocks& all = rocks.rocks();
   const bool two_way = config.mode == CouplingMode::two_way;
   buoyancy.assign(all.count(), Vec3::Zero());
-  std::size_t f = 0;  // both lists are in ascending id
+  FindById earlier(filter_id);
   for (std::size_t r = 0; r < all.count(); ++r) {
     const RockOnGrid& place = on_grid[r];
     if (place.wetted <= 0) continue;
@@ -247,9 +248,8 @@ void Coupling::Implementation::evaluate_buoyancy(double dt) {
       mass += place.weights.weight[c] * level.mass[n];
       density += place.weights.weight[c] * level.density[n];
     }
-    while (f < filter_id.size() && filter_id[f] < all.id[r]) ++f;
-    const bool known = f < filter_id.size() && filter_id[f] == all.id[r];
-    const Vec3 lift = known ? filtered[f] : Vec3(0, 0, 0);
+    const auto known = earlier.find(all.id[r]);
+    const Vec3 lift = known ? filtered[*known] : Vec3(0, 0, 0);
     const double displaced_volume = place.wetted * rocks.volume(r);
     buoyancy[r] = displaced_volume * density / mass * lift;
     if (!two_way) continue;
@@ -316,7 +316,7 @@ void Coupling::fluid_to_grid(double dt) {
   const double share = tau > 0 ? -std::expm1(-dt / tau) : 1.0;
   std::vector<std::uint64_t> id;
   std::vector<Vec3> lift;
-  std::size_t f = 0;
+  FindById earlier(c.filter_id);
   for (std::size_t r = 0; r < all.count() && r < c.on_grid.size(); ++r) {
     const RockOnGrid& place = c.on_grid[r];
     if (place.wetted <= 0) continue;
@@ -329,10 +329,9 @@ void Coupling::fluid_to_grid(double dt) {
       sum += place.weights.weight[k] * level.acceleration[n];
     }
     const Vec3 now = sum / mass - c.gravity;
-    while (f < c.filter_id.size() && c.filter_id[f] < all.id[r]) ++f;
-    const bool known = f < c.filter_id.size() && c.filter_id[f] == all.id[r];
+    const auto known = earlier.find(all.id[r]);
     id.push_back(all.id[r]);
-    lift.push_back(known ? Vec3(c.filtered[f] + share * (now - c.filtered[f])) : Vec3(share * now));
+    lift.push_back(known ? Vec3(c.filtered[*known] + share * (now - c.filtered[*known])) : Vec3(share * now));
   }
   c.filter_id = std::move(id);
   c.filtered = std::move(lift);
