@@ -46,6 +46,17 @@ void parallel_chunks(std::size_t n, std::size_t chunk_length, const Body& body) 
   if (error) std::rethrow_exception(error);
 }
 
+/// Calls body(scratch, chunk, begin, end) for each chunk; `scratch` is the thread's own, one entry of `all` a
+/// thread. What a body finds there is left over from other chunks: nothing may depend on it.
+template <class Scratch, class Body>
+void parallel_chunks_with(std::vector<Scratch>& all, std::size_t n, std::size_t chunk_length,
+                          const Body& body) {
+  all.resize(std::max(all.size(), static_cast<std::size_t>(thread_count())));
+  parallel_chunks(n, chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    body(all[static_cast<std::size_t>(omp_get_thread_num())], c, begin, end);
+  });
+}
+
 /// Calls body(i) for each i in [0, n).
 template <class Body>
 void parallel_for(std::size_t n, const Body& body, std::size_t chunk_length = 256) {

@@ -39,9 +39,11 @@ void DemSystem::Implementation::exchange_rocks(StateArchive& archive) {
   archive.values("fluid_force", fluid_force);
   archive.values("fluid_torque", fluid_torque);
   archive.values("listed_at", listed_at);
+  archive.values("margin", margin);
   archive.value("list_valid", list_valid);
   archive.value("next_id", next_id);
   archive.value("steps", steps);
+  archive.value("lists", lists);
   archive.value("now", now);
   archive.value("momentum_added", momentum_added);
   archive.value("momentum_removed", momentum_removed);
@@ -139,8 +141,11 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
   bytes += bytes_of(rocks.shape) + bytes_of(rocks.material) + bytes_of(rocks.source) + bytes_of(rocks.size);
   bytes += bytes_of(rocks.mass) + bytes_of(rocks.radius) + bytes_of(rocks.birth) + bytes_of(rocks.wet_dose);
   bytes += bytes_of(angular) + bytes_of(force) + bytes_of(torque) + bytes_of(fluid_force);
-  bytes += bytes_of(fluid_torque) + bytes_of(listed_at) + bytes_of(bodies) + bytes_of(pair_force);
-  bytes += bytes_of(own_force) + bytes_of(own_torque) + bytes_of(room_reach) + bytes_of(near_walls);
+  bytes += bytes_of(fluid_torque) + bytes_of(listed_at) + bytes_of(margin) + bytes_of(bodies);
+  bytes += bytes_of(turned_shapes) + bytes_of(reactions) + bytes_of(room_reach) + bytes_of(near_walls);
+  for (const PairScratch& scratch : pair_scratch)
+    bytes += bytes_of(scratch.candidates) + bytes_of(scratch.shaped) + bytes_of(scratch.geometry) +
+             bytes_of(scratch.outcome);
   for (const RockWalls& near : near_walls) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
   for (const DemChunk& chunk : chunks)
     bytes += sizeof(chunk) + bytes_of(chunk.loads) + bytes_of(chunk.overlaps) + bytes_of(chunk.scratch.hits) +

@@ -77,6 +77,7 @@ std::uint64_t DemSystem::add(const NewRock& rock) {
     s.fluid_torque.emplace_back(Vec3::Zero());
   }
   s.listed_at.push_back(r.x[i]);
+  s.margin.push_back(0);
   if (s.has_walls) s.near_walls.emplace_back();
   s.list_valid = false;
   return r.id.back();
@@ -85,7 +86,7 @@ std::uint64_t DemSystem::add(const NewRock& rock) {
 bool DemSystem::Implementation::has_room(const Vec3& x, double radius, bool check_walls) {
   if (!room_valid || count() - room_count > std::max(room_tail, room_count / 8)) {
     room_reach.resize(count());
-    for (std::size_t i = 0; i < count(); ++i) room_reach[i] = rocks.radius[i] + skin;
+    for (std::size_t i = 0; i < count(); ++i) room_reach[i] = rocks.radius[i] + 2 * margin[i];
     if (count() > 0) room.build(rocks.x, room_reach, scene.domain);
     room_count = count();
     room_valid = true;
@@ -140,6 +141,7 @@ void DemSystem::Implementation::compact(const std::vector<int>& new_index, std::
   keep(fluid_force, new_index, kept);
   keep(fluid_torque, new_index, kept);
   keep(listed_at, new_index, kept);
+  keep(margin, new_index, kept);
   keep(near_walls, new_index, kept);
   room_valid = false;
 }

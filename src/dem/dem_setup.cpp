@@ -10,8 +10,6 @@
 namespace sluice {
 
 namespace {
-constexpr double skin_fraction =
-    0.3;  // of the smallest size; chosen, not measured: less skin, more rebuilds of the list
 constexpr double overlap_histogram_top = 40, overlap_bin = 0.05;  // percent of the radius
 
 void note(std::vector<InputProblem>& problems, std::string key, std::string problem, const char* reason,
@@ -53,7 +51,7 @@ void check_materials(const Materials& materials, std::vector<InputProblem>& prob
   }
 }
 
-void check_sizes(const DemScene& scene, std::vector<InputProblem>& problems) {
+void check_sizes(const DemScene& scene, double most_margin, std::vector<InputProblem>& problems) {
   if (!(scene.smallest_size > 0))
     note(problems, "size", fmt::format("of the smallest rock is {} m", scene.smallest_size),
          "it sets stiffness and time step", "use a positive size");
@@ -64,7 +62,7 @@ void check_sizes(const DemScene& scene, std::vector<InputProblem>& problems) {
          "rocks have a mass", "give the rocks' material a density");
   double widest = 0;
   for (const RockShape& shape : scene.shapes) widest = std::max(widest, 2 * shape.bounding_radius);
-  widest = widest * scene.largest_size + skin_fraction * scene.smallest_size;
+  widest *= scene.largest_size * (1 + most_margin);
   for (int k = 0; k < 3; ++k)
     if (scene.domain.periodic(k) && scene.domain.box.hi[k] - scene.domain.box.lo[k] < 2 * widest)
       note(problems, "domain", fmt::format("is periodic over less than {:.3g} m", 2 * widest),
@@ -87,7 +85,7 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
   std::vector<InputProblem> problems;
   check_shapes(scene, problems);
   check_materials(scene.materials, problems);
-  check_sizes(scene, problems);
+  check_sizes(scene, most_margin, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
 
   limits = choose_limits(config, scene);
@@ -101,7 +99,6 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
   }
   has_walls = surface.patch_count() > 0;
   periodic = scene.domain.any_periodic();
-  skin = skin_fraction * scene.smallest_size;
 }
 
 }  // namespace sluice

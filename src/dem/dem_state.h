@@ -4,8 +4,8 @@
 /// A step is kick - drift - contacts - kick (velocity Verlet; the dashpots see the half-step velocity):
 ///
 ///   drift     half kick with the forces of the last step, move, turn         one loop over rocks
-///   contacts  each rock's pairs with higher indices, and its walls            one loop over rocks
-///   finish    sum of each rock's forces in list order, half kick              one loop over rocks
+///   contacts  each rock's pairs with higher indices, and its walls            one loop over chunks
+///   finish    what other chunks' pairs push back, half kick                   one loop over rocks
 ///
 /// Loops run in chunks of a fixed length; a chunk owns its tallies, which are added in chunk order
 /// when asked for. So nothing depends on the number of threads, and nothing is summed in a step.
@@ -14,6 +14,7 @@
 
 #include "dem/dem_system.h"
 #include "dem/pair_list.h"
+#include "dem/superquadric_pairs.h"
 #include "dem/wall_contact.h"
 
 namespace sluice {
@@ -30,10 +31,27 @@ struct alignas(64) Body {
   int shape;
 };
 
-/// A contact's force on the first rock and torque on the second; the first rock's torque is added at once.
-struct PairForce {
-  Vec3 force;   ///< [N]
-  Vec3 torque;  ///< [N m]
+/// What a contact gives to its second rock, where that belongs to another chunk.
+struct Reaction {
+  Vec3 force = Vec3::Zero();   ///< [N]
+  Vec3 torque = Vec3::Zero();  ///< [N m]
+};
+
+/// A listed pair of a chunk whose bounding spheres meet.
+struct Candidate {
+  std::uint32_t pair, i, j;
+  std::uint32_t slot;   ///< of the reaction; no_slot where both rocks belong to the chunk
+  std::int32_t shaped;  ///< place among the pairs of superquadrics; -1 for two spheres
+  Vec3 separation;      ///< centre of j (its nearest image) - centre of i [m]
+  static constexpr std::uint32_t no_slot = 0xffffffff;
+};
+
+/// What the pairs of one chunk need while they are looked at; one a thread.
+struct PairScratch {
+  std::vector<Candidate> candidates;
+  std::vector<BodyPair> shaped;
+  std::vector<ContactGeometry> geometry;
+  std::vector<PairOutcome> outcome;
 };
 
 /// Triangles near a rock, and its contacts with them.
@@ -55,7 +73,7 @@ struct DemChunk {
   std::vector<WallLoad> rates;  ///< force [N] and torque [N m] on each wall, in the place of the impulses
   double elastic = 0;           ///< [J]
   std::uint64_t contacts = 0;
-  double moved2 = 0;             ///< square of the largest distance from where the pairs were listed [m2]
+  bool moved_far = false;        ///< a rock is farther from where the pairs were listed than its margin
   std::vector<double> overlaps;  ///< of the radius, when sampled
   WallScratch scratch;
 };
@@ -63,7 +81,7 @@ struct DemChunk {
 /// Where two bodies touch and how easily they yield there.
 struct Touch {
   Vec3 normal;
-  Vec3 point;             ///< [m]
+  Vec3 arm_a;             ///< from the centre of the first [m]
   double overlap;         ///< [m]
   double mass_effective;  ///< along the normal, lever arms included [kg]
 };
@@ -76,7 +94,8 @@ struct StepTime {
 struct DemSystem::Implementation {
   Implementation(const DemConfig& config, DemScene scene, const Walls& walls);
 
-  static constexpr std::size_t chunk_length = 256;
+  static constexpr std::size_t chunk_length = PairList::rocks_per_chunk;
+  static constexpr double most_margin = 0.3;  ///< of the bounding radius: how far a rock goes on one list
 
   DemConfig config;
   DemScene scene;
@@ -86,17 +105,17 @@ struct DemSystem::Implementation {
   std::vector<ContactLaw> laws;         ///< by pair of materials
   std::vector<std::uint8_t> is_sphere;  ///< by shape
   bool only_spheres = true, has_rolling = false, has_walls = false, periodic = false;
-  double skin = 0;  ///< of the pair list [m]
 
   Rocks rocks;
   std::vector<Vec3> angular;        ///< angular momentum of rocks [kg m2/s]; empty where all are spheres
   std::vector<Vec3> force, torque;  ///< of contacts, last step
   std::vector<Vec3> fluid_force, fluid_torque;  ///< empty until set
   std::vector<Vec3> listed_at;                  ///< where each rock was when the pairs were listed [m]
+  std::vector<double> margin;                   ///< how far it may go from there [m]
   std::vector<RockWalls> near_walls;            ///< empty without walls
   PairList pairs;
   bool list_valid = true;
-  std::uint64_t next_id = 0, steps = 0;
+  std::uint64_t next_id = 0, steps = 0, lists = 0;
   double now = 0;                                                       ///< end of the last step [s]
   Vec3 momentum_added = Vec3::Zero(), momentum_removed = Vec3::Zero();  ///< since start [N s]
 
@@ -107,8 +126,9 @@ struct DemSystem::Implementation {
 
   // rebuilt each step
   std::vector<Body> bodies;
-  std::vector<PairForce> pair_force;
-  std::vector<Vec3> own_force, own_torque;
+  std::vector<TurnedShape> turned_shapes;  ///< empty where all are spheres
+  std::vector<Reaction> reactions;         ///< by slot of the pair list
+  std::vector<PairScratch> pair_scratch;   ///< by thread
 
   // for has_room
   CellGrid room;
@@ -130,21 +150,28 @@ struct DemSystem::Implementation {
     const RockShape& shape = shape_of(i);
     return {x, rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
   }
+  bool has_sphere_shape(int shape) const { return is_sphere[static_cast<std::size_t>(shape)] != 0; }
 
   void step(double t, double dt);
   void prepare_chunks(double dt);
   void drift(const StepTime& time);
-  void list_pairs();
+  void describe(std::size_t i);
+  void list_pairs(double dt);
+  void sort_in_space();
   void contacts(const StepTime& time);
   void finish(const StepTime& time);
   void give_half_to_walls(double dt);
   void kick(std::size_t i, double seconds);
 
-  void pairs_of(DemChunk& chunk, std::size_t i, const StepTime& time);
-  void touch_pair(DemChunk& chunk, std::size_t i, std::size_t p, const Touch& touch, const Vec3& image,
-                  const StepTime& time);
+  void find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t begin,
+                       std::size_t end, double dt);
+  bool keeps_clear(std::size_t p, const Body& a, const Body& b, double dt);
+  void pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t begin, std::size_t end,
+                const StepTime& time);
+  bool spheres_touch(const Candidate& candidate, Touch& touch) const;
+  bool superquadrics_touch(const Candidate& candidate, const PairScratch& scratch, Touch& touch);
+  void touch_pair(DemChunk& chunk, const Candidate& candidate, const Touch& touch, const StepTime& time);
   void end_pair(DemChunk& chunk, std::size_t i, std::size_t p);
-  bool superquadrics_touch(std::size_t i, std::size_t p, const Vec3& separation, Touch& touch);
   double yield(std::size_t i, const Vec3& arm, const Vec3& n) const;
   void walls_of(DemChunk& chunk, std::size_t i, const StepTime& time);
   void touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch, const StepTime& time);

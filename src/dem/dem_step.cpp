@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.h"
@@ -12,15 +13,21 @@ namespace sluice {
 namespace {
 constexpr std::uint64_t steps_per_sample = 100;
 constexpr double longest_move = 0.5;  // of the radius in one step: beyond it contacts would be missed
+
+// How far a rock may go before the pairs are listed again: what it does in this many steps, but at least and
+// at most so much of its bounding radius.
+constexpr double steps_per_list = 200;
+constexpr double least_margin = 0.03;
+constexpr std::uint64_t lists_per_sort = 8;
 }  // namespace
 
 void DemSystem::Implementation::step(double t, double dt) {
   const StepTime time{t, dt, steps % steps_per_sample == 0};
   prepare_chunks(dt);
   drift(time);
-  double moved2 = 0;
-  for (const DemChunk& chunk : chunks) moved2 = std::max(moved2, chunk.moved2);
-  if (!list_valid || moved2 >= 0.25 * skin * skin) list_pairs();
+  const bool moved_far =
+      std::any_of(chunks.begin(), chunks.end(), [](const DemChunk& chunk) { return chunk.moved_far; });
+  if (!list_valid || moved_far) list_pairs(dt);
   contacts(time);
   finish(time);
   give_half_to_walls(dt);
@@ -42,7 +49,8 @@ void DemSystem::Implementation::prepare_chunks(double dt) {
   const std::size_t used = (count() + chunk_length - 1) / chunk_length;
   if (chunks.size() < used) chunks.resize(used);
   for (DemChunk& chunk : chunks) {
-    chunk.elastic = chunk.moved2 = 0;
+    chunk.elastic = 0;
+    chunk.moved_far = false;
     chunk.contacts = 0;
     chunk.overlaps.clear();
     chunk.loads.resize(walls.size());
@@ -73,8 +81,17 @@ void DemSystem::Implementation::kick(std::size_t i, double seconds) {
   }
 }
 
+void DemSystem::Implementation::describe(std::size_t i) {
+  bodies[i] = {rocks.x[i], rocks.radius[i], rocks.v[i],        rocks.mass[i],
+               rocks.w[i], rocks.size[i],   rocks.material[i], rocks.shape[i]};
+  if (only_spheres) return;
+  const RockShape& shape = shape_of(i);
+  turned_shapes[i] = {rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
+}
+
 void DemSystem::Implementation::drift(const StepTime& time) {
   bodies.resize(count());
+  if (!only_spheres) turned_shapes.resize(count());
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
     DemChunk& chunk = chunks[c];
     for (std::size_t i = begin; i < end; ++i) {
@@ -98,51 +115,55 @@ void DemSystem::Implementation::drift(const StepTime& time) {
         rocks.x[i] = scene.domain.wrapped(rocks.x[i]);
         moved = scene.domain.nearest_image(moved);
       }
-      chunk.moved2 = std::max(chunk.moved2, moved.squaredNorm());
+      chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
       chunk.mass_seconds += rocks.mass[i] * time.dt;
       if (!fluid_force.empty()) {
         chunk.fluid_impulse += fluid_force[i] * time.dt;
         chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * time.dt;
       }
-      bodies[i] = {rocks.x[i], rocks.radius[i], rocks.v[i],        rocks.mass[i],
-                   rocks.w[i], rocks.size[i],   rocks.material[i], rocks.shape[i]};
+      describe(i);
     }
   });
 }
 
-void DemSystem::Implementation::list_pairs() {
-  pairs.rebuild(rocks.x, rocks.radius, skin, scene.domain);
+void DemSystem::Implementation::list_pairs(double dt) {
+  if (count() > chunk_length && lists % lists_per_sort == 0) sort_in_space();
+  ++lists;
+  std::vector<double> reach(count());
+  parallel_for(count(), [&](std::size_t i) {
+    const double radius = rocks.radius[i];
+    margin[i] =
+        std::clamp(steps_per_list * dt * rocks.v[i].norm(), least_margin * radius, most_margin * radius);
+    reach[i] = radius + margin[i];
+  });
+  pairs.rebuild(rocks.x, reach, scene.domain);
   listed_at = rocks.x;
   list_valid = true;
-  room_valid = false;  // its grid allows for the skin only
+  room_valid = false;  // its grid allows for the margins only
 }
 
 void DemSystem::Implementation::contacts(const StepTime& time) {
-  own_force.resize(count());
-  own_torque.resize(count());
-  pair_force.resize(pairs.pair_count());
-  parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      own_force[i].setZero();
-      own_torque[i].setZero();
-      pairs_of(chunks[c], i, time);
-      if (has_walls) walls_of(chunks[c], i, time);
-    }
-  });
+  reactions.resize(pairs.incoming.size());
+  parallel_chunks_with(pair_scratch, count(), chunk_length,
+                       [&](PairScratch& scratch, std::size_t c, std::size_t begin, std::size_t end) {
+                         std::fill(force.begin() + begin, force.begin() + end, Vec3::Zero());
+                         std::fill(torque.begin() + begin, torque.begin() + end, Vec3::Zero());
+                         std::fill(reactions.begin() + pairs.out_start[c],
+                                   reactions.begin() + pairs.out_start[c + 1], Reaction{});
+                         pairs_of(chunks[c], scratch, c, begin, end, time);
+                         if (has_walls)
+                           for (std::size_t i = begin; i < end; ++i) walls_of(chunks[c], i, time);
+                       });
 }
 
 void DemSystem::Implementation::finish(const StepTime& time) {
-  parallel_chunks(count(), chunk_length, [&](std::size_t, std::size_t begin, std::size_t end) {
+  parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t k = pairs.in_start[c]; k < pairs.in_start[c + 1]; ++k) {
+      const auto [slot, rock] = pairs.incoming[k];
+      force[rock] += reactions[slot].force;
+      torque[rock] += reactions[slot].torque;
+    }
     for (std::size_t i = begin; i < end; ++i) {
-      Vec3 f = own_force[i], moment = own_torque[i];
-      for (std::size_t k = pairs.in_start[i]; k < pairs.in_start[i + 1]; ++k) {
-        const std::size_t p = pairs.in_pair[k];
-        if (!pairs.touching[p]) continue;
-        f -= pair_force[p].force;
-        moment += pair_force[p].torque;
-      }
-      force[i] = f;
-      torque[i] = moment;
       kick(i, 0.5 * time.dt);
       if (!std::isfinite(rocks.v[i].sum()) || !std::isfinite(rocks.w[i].sum()))
         throw NumericalError("rocks.substeps", time.t,

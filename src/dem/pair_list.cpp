@@ -15,33 +15,34 @@ void PairList::resize_memories(std::size_t pairs) {
   touching.assign(pairs, 0);
   spring.assign(pairs, Vec3::Zero());
   if (contents_.rolling) turned.assign(pairs, Vec3::Zero());
-  if (contents_.superquadrics) memory.assign(pairs, {});
+  if (!contents_.superquadrics) return;
+  memory.assign(pairs, {});
+  clear.assign(pairs, 0);
 }
 
 void PairList::copy_memory(const PairList& from, std::size_t old_pair, std::size_t new_pair) {
   touching[new_pair] = from.touching[old_pair];
   spring[new_pair] = from.spring[old_pair];
   if (contents_.rolling) turned[new_pair] = from.turned[old_pair];
-  if (contents_.superquadrics) memory[new_pair] = from.memory[old_pair];
+  if (!contents_.superquadrics) return;
+  memory[new_pair] = from.memory[old_pair];
+  clear[new_pair] = from.clear[old_pair];
 }
 
-void PairList::find(std::span<const Vec3> x, std::span<const double> radius, double skin,
-                    const Domain& domain) {
+void PairList::find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain) {
   const std::size_t n = x.size();
-  reach_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) reach_[i] = radius[i] + 0.5 * skin;
-  grid.build(x, reach_, domain);
+  grid.build(x, reach, domain);
   found_.resize(std::max(found_.size(), (n + chunk_length - 1) / chunk_length));
   for (auto& chunk : found_) chunk.clear();
   const bool periodic = domain.any_periodic();
   parallel_chunks(n, chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int level = grid.level(i);
-      grid.near(x[i], reach_[i], level, [&](std::size_t j) {
+      grid.near(x[i], reach[i], level, [&](std::size_t j) {
         if (grid.level(j) == level && j <= i) return;
         Vec3 d = x[j] - x[i];
         if (periodic) d = domain.nearest_image(d);
-        const double far = reach_[i] + reach_[j];
+        const double far = reach[i] + reach[j];
         if (d.squaredNorm() >= far * far) return;
         found_[c].push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))});
       });
@@ -52,26 +53,37 @@ void PairList::find(std::span<const Vec3> x, std::span<const double> radius, dou
     for (const auto& pair : chunk) ++start[static_cast<std::size_t>(pair[0]) + 1];
   for (std::size_t i = 0; i < n; ++i) start[i + 1] += start[i];
   second.resize(start[n]);
-  in_start.assign(start.begin(), start.end());
+  std::vector<std::uint32_t> next(start.begin(), start.end());
   for (const auto& chunk : found_)
-    for (const auto& pair : chunk) second[in_start[static_cast<std::size_t>(pair[0])]++] = pair[1];
+    for (const auto& pair : chunk) second[next[static_cast<std::size_t>(pair[0])]++] = pair[1];
   parallel_for(n,
                [&](std::size_t i) { std::sort(second.begin() + start[i], second.begin() + start[i + 1]); });
 }
 
-void PairList::transpose() {
-  const std::size_t n = rock_count();
-  in_start.assign(n + 2, 0);
-  for (int j : second) ++in_start[static_cast<std::size_t>(j) + 2];
-  for (std::size_t i = 0; i < n; ++i) in_start[i + 2] += in_start[i + 1];
-  in_pair.resize(second.size());
-  for (std::size_t p = 0; p < second.size(); ++p)
-    in_pair[in_start[static_cast<std::size_t>(second[p]) + 1]++] = static_cast<std::uint32_t>(p);
+void PairList::give_slots() {
+  const std::size_t n = rock_count(), chunks = (n + rocks_per_chunk - 1) / rocks_per_chunk;
+  out_start.assign(chunks + 1, 0);
+  in_start.assign(chunks + 2, 0);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t p = start[i]; p < start[i + 1]; ++p)
+      if (const auto j = static_cast<std::size_t>(second[p]); crosses(i, j)) {
+        ++out_start[i / rocks_per_chunk + 1];
+        ++in_start[j / rocks_per_chunk + 2];
+      }
+  for (std::size_t c = 0; c < chunks; ++c) {
+    out_start[c + 1] += out_start[c];
+    in_start[c + 2] += in_start[c + 1];
+  }
+  incoming.resize(out_start[chunks]);
+  std::uint32_t slot = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t p = start[i]; p < start[i + 1]; ++p)
+      if (const auto j = static_cast<std::size_t>(second[p]); crosses(i, j))
+        incoming[in_start[j / rocks_per_chunk + 1]++] = {slot++, static_cast<std::uint32_t>(j)};
   in_start.pop_back();
 }
 
-void PairList::rebuild(std::span<const Vec3> x, std::span<const double> radius, double skin,
-                       const Domain& domain) {
+void PairList::rebuild(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain) {
   PairList old(contents_);
   old.start.swap(start);
   old.second.swap(second);
@@ -79,7 +91,8 @@ void PairList::rebuild(std::span<const Vec3> x, std::span<const double> radius, 
   old.spring.swap(spring);
   old.turned.swap(turned);
   old.memory.swap(memory);
-  find(x, radius, skin, domain);
+  old.clear.swap(clear);
+  find(x, reach, domain);
   resize_memories(second.size());
   parallel_for(std::min(old.rock_count(), x.size()), [&](std::size_t i) {
     std::size_t o = old.start[i];
@@ -88,7 +101,7 @@ void PairList::rebuild(std::span<const Vec3> x, std::span<const double> radius, 
       if (o < old.start[i + 1] && old.second[o] == second[p]) copy_memory(old, o, p);
     }
   });
-  transpose();
+  give_slots();
 }
 
 void PairList::renumber(std::span<const int> new_index, std::size_t new_count) {
@@ -110,8 +123,58 @@ void PairList::renumber(std::span<const int> new_index, std::size_t new_count) {
   touching.resize(kept);
   spring.resize(kept);
   if (contents_.rolling) turned.resize(kept);
-  if (contents_.superquadrics) memory.resize(kept);
-  transpose();
+  if (contents_.superquadrics) {
+    memory.resize(kept);
+    clear.resize(kept);
+  }
+  give_slots();
+}
+
+void PairList::reorder(std::span<const int> new_index) {
+  struct Entry {
+    int second;
+    std::uint32_t old_pair;
+    bool turned_round;
+  };
+  start.resize(new_index.size() + 1, start.back());  // rocks added since have no pairs yet
+  const std::size_t n = rock_count();
+  std::vector<std::uint32_t> new_start(n + 1, 0);
+  const auto places = [&](std::size_t i, std::size_t p) {
+    return std::minmax(new_index[i], new_index[static_cast<std::size_t>(second[p])]);
+  };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t p = start[i]; p < start[i + 1]; ++p)
+      ++new_start[static_cast<std::size_t>(places(i, p).first) + 1];
+  for (std::size_t i = 0; i < n; ++i) new_start[i + 1] += new_start[i];
+  std::vector<Entry> entries(second.size());
+  std::vector<std::uint32_t> next(new_start.begin(), new_start.end());
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t p = start[i]; p < start[i + 1]; ++p) {
+      const auto [low, high] = places(i, p);
+      entries[next[static_cast<std::size_t>(low)]++] = {high, static_cast<std::uint32_t>(p),
+                                                        low != new_index[i]};
+    }
+  parallel_for(n, [&](std::size_t i) {
+    std::sort(entries.begin() + new_start[i], entries.begin() + new_start[i + 1],
+              [](const Entry& a, const Entry& b) { return a.second < b.second; });
+  });
+  PairList old(contents_);
+  old.touching.swap(touching);
+  old.spring.swap(spring);
+  old.turned.swap(turned);
+  old.memory.swap(memory);
+  old.clear.swap(clear);
+  resize_memories(entries.size());
+  for (std::size_t p = 0; p < entries.size(); ++p) {
+    second[p] = entries[p].second;
+    copy_memory(old, entries[p].old_pair, p);
+    if (!entries[p].turned_round) continue;
+    spring[p] = -spring[p];
+    if (contents_.rolling) turned[p] = -turned[p];
+    if (contents_.superquadrics) memory[p].turn_round();
+  }
+  start.swap(new_start);
+  give_slots();
 }
 
 void PairList::exchange(StateArchive& archive) {
@@ -121,6 +184,7 @@ void PairList::exchange(StateArchive& archive) {
   archive.values("touching", touching);
   archive.values("spring", spring);
   archive.values("turned", turned);
+  archive.values("clear", clear);
   std::vector<std::array<double, memory_columns>> rows(memory.size());
   for (std::size_t p = 0; p < memory.size(); ++p) {
     const PairMemory& m = memory[p];
@@ -137,12 +201,13 @@ void PairList::exchange(StateArchive& archive) {
     memory[p].surface_b = Eigen::Map<const Vec3>(rows[p].data() + 3);
     memory[p].normal = Eigen::Map<const Vec3>(rows[p].data() + 6);
   }
-  transpose();
+  give_slots();
 }
 
 std::size_t PairList::memory_bytes() const {
-  std::size_t bytes = grid.memory_bytes() + reach_.capacity() * sizeof(double);
-  bytes += (start.capacity() + in_start.capacity() + in_pair.capacity()) * sizeof(std::uint32_t);
+  std::size_t bytes = grid.memory_bytes() + incoming.capacity() * sizeof(Incoming);
+  bytes += (start.capacity() + out_start.capacity() + in_start.capacity()) * sizeof(std::uint32_t);
+  bytes += clear.capacity() * sizeof(double);
   bytes += second.capacity() * sizeof(int) + touching.capacity();
   bytes += (spring.capacity() + turned.capacity()) * sizeof(Vec3) + memory.capacity() * sizeof(PairMemory);
   for (const auto& chunk : found_) bytes += chunk.capacity() * sizeof(chunk[0]);

@@ -2,6 +2,14 @@
 /// Pairs of rocks that may touch before any of them has moved half the skin, and what each pair
 /// remembers. Rows by the lower index i, each sorted by the higher index j: the order depends on
 /// nothing but the rocks, so sums over it are the same for any number of threads.
+///
+/// Rocks are cut into chunks of `rocks_per_chunk`. A chunk adds the forces of its pairs to its own rocks
+/// at once; the reaction on a rock of another chunk waits in a slot that no other pair writes:
+///
+///     rocks     [ 0 ... 255 ][ 256 ... 511 ][ ...        reactions of chunk 0: slots out_start[0] ...
+///     pair (7, 300) of chunk 0 crosses: slot s           received by chunk 1: incoming {s, 300}
+///
+/// so no force is written by two threads, and each rock's sum has one order.
 
 #include <cstdint>
 #include <span>
@@ -20,38 +28,52 @@ struct PairContents {
   bool superquadrics = false;  ///< some shape is not a sphere
 };
 
+/// A reaction that a chunk receives from another one.
+struct Incoming {
+  std::uint32_t slot;  ///< of the reactions of all chunks
+  std::uint32_t rock;
+};
+
 class PairList {
  public:
+  static constexpr std::size_t rocks_per_chunk = 256;
+
   explicit PairList(PairContents contents) : contents_(contents) { start.assign(1, 0); }
 
-  /// Finds all pairs closer than both radii plus `skin` [m]; what old pairs remember is kept.
-  void rebuild(std::span<const Vec3> x, std::span<const double> radius, double skin, const Domain& domain);
+  /// Finds all pairs closer than the sum of their reaches [m]; what old pairs remember is kept.
+  void rebuild(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain);
   /// Drops rocks with new_index -1 and renumbers the others (order kept).
   void renumber(std::span<const int> new_index, std::size_t new_count);
+  /// Renumbers all rocks in any order; a pair whose rocks change places sees what it remembers from the
+  /// other side.
+  void reorder(std::span<const int> new_index);
   void exchange(StateArchive& archive);
   std::size_t memory_bytes() const;
 
   std::size_t pair_count() const { return second.size(); }
   std::size_t rock_count() const { return start.size() - 1; }
 
-  std::vector<std::uint32_t> start;     ///< #rocks + 1: pairs of rock i are start[i] .. start[i + 1]
-  std::vector<int> second;              ///< #pairs: j > i
-  std::vector<std::uint8_t> touching;   ///< #pairs
-  std::vector<Vec3> spring;             ///< #pairs: tangential stretch [m]
-  std::vector<Vec3> turned;             ///< #pairs or empty: rolling history [rad]
-  std::vector<PairMemory> memory;       ///< #pairs or empty: superquadric warm start
-  std::vector<std::uint32_t> in_start;  ///< #rocks + 1: the pairs in which rock j is the second ...
-  std::vector<std::uint32_t> in_pair;   ///< ... by ascending i
-  CellGrid grid;                        ///< of the last rebuild
+  std::vector<std::uint32_t> start;      ///< #rocks + 1: pairs of rock i are start[i] .. start[i + 1]
+  std::vector<int> second;               ///< #pairs: j > i
+  std::vector<std::uint8_t> touching;    ///< #pairs
+  std::vector<Vec3> spring;              ///< #pairs: tangential stretch [m]
+  std::vector<Vec3> turned;              ///< #pairs or empty: rolling history [rad]
+  std::vector<PairMemory> memory;        ///< #pairs or empty: superquadric warm start
+  std::vector<double> clear;             ///< #pairs or empty: they cannot touch before coming this closer [m]
+  std::vector<std::uint32_t> out_start;  ///< #chunks + 1: slots of the pairs that leave a chunk, in order
+  std::vector<std::uint32_t> in_start;   ///< #chunks + 1: what a chunk receives ...
+  std::vector<Incoming> incoming;        ///< ... by ascending slot
+  CellGrid grid;                         ///< of the last rebuild
+
+  bool crosses(std::size_t i, std::size_t j) const { return i / rocks_per_chunk != j / rocks_per_chunk; }
 
  private:
-  void find(std::span<const Vec3> x, std::span<const double> radius, double skin, const Domain& domain);
-  void transpose();
+  void find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain);
+  void give_slots();
   void resize_memories(std::size_t pairs);
   void copy_memory(const PairList& from, std::size_t old_pair, std::size_t new_pair);
 
   PairContents contents_;
-  std::vector<double> reach_;                           ///< scratch
   std::vector<std::vector<std::array<int, 2>>> found_;  ///< scratch, by chunk
 };
 

@@ -56,8 +56,8 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
     moment = rolling_torque(rolling, body.w, time.dt, touch.turned);
     lost_rolling = -moment.dot(body.w) * time.dt;
   }
-  own_force[i] += contact.force;
-  own_torque[i] += arm.cross(contact.force) + moment;
+  force[i] += contact.force;
+  torque[i] += arm.cross(contact.force) + moment;
   chunk.lost_normal += contact.lost_normal;
   chunk.lost_friction += contact.lost_friction + lost_rolling;
   chunk.wall_work += contact.force.dot(surface_velocity) * time.dt;

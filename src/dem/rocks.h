@@ -1,5 +1,6 @@
 #pragma once
-/// Rocks as structure of arrays. No loops here; DemSystem owns them and keeps the arrays alike.
+/// Rocks as structure of arrays. No loops here; DemSystem owns them and keeps the arrays alike. It sorts them
+/// in space from time to time: what lasts longer than a step goes by id, not by index.
 
 #include <cstdint>
 #include <vector>
@@ -9,7 +10,7 @@
 namespace sluice {
 
 struct Rocks {
-  std::vector<std::uint64_t> id;  ///< never used twice in a run; ascending with birth
+  std::vector<std::uint64_t> id;  ///< never used twice in a run; rocks change places now and then
   std::vector<Vec3> x;            ///< centre [m]
   std::vector<Vec3> v;            ///< [m/s]
   std::vector<Vec3> w;            ///< angular velocity, space frame [rad/s]

@@ -193,7 +193,11 @@ PairOutcome solve(const Superquadric& a, const Superquadric& b, const Tolerance&
     const Vec3 n = warm ? Vec3(to_space.transpose() * memory.normal) : Vec3(d.normalized());
     // The points known bound the gap along n from above: no need to look where they already overlap.
     const bool may = !warm || n.dot(d + rotation * memory.surface_b - memory.surface_a) > 0;
-    if (may && gap_along(n) > 0) return PairOutcome::separated;
+    const double gap = may ? gap_along(n) : 0;
+    if (gap > 0) {
+      geometry.overlap = -gap;
+      return PairOutcome::separated;
+    }
   }
 
   Evaluation<double> e;

@@ -27,6 +27,12 @@ struct PairMemory {
   Vec3 surface_a = Vec3::Zero();  ///< surface point of A, frame of A
   Vec3 surface_b = Vec3::Zero();  ///< surface point of B, frame of B
   Vec3 normal = Vec3::Zero();     ///< last common normal, space frame; zero = cold
+
+  /// The same pair with A and B exchanged.
+  void turn_round() {
+    surface_a.swap(surface_b);
+    normal = -normal;
+  }
 };
 
 enum class PairOutcome {
@@ -37,7 +43,9 @@ enum class PairOutcome {
 };
 
 /// Contact of two bodies that may touch.
-/// @param geometry  written unless separated; a gap that was computed is written, too (overlap < 0)
+/// @param geometry  written unless separated; then only its overlap is, negative: the bodies are at least
+/// that
+///                  far apart
 PairOutcome superquadric_pair(const Superquadric& a, const Superquadric& b, PairMemory& memory,
                               ContactGeometry& geometry);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cstring>
 
 #include "dem/superquadric_newton.h"
 
@@ -73,78 +74,102 @@ struct Gathered {
   LaneTriple axes_a, axes_b;
   Lanes m_a, m_b;
   LaneTriple x, y;    ///< surface points
-  LaneTriple normal;  ///< the last, frame of A
   bool whole = true;  ///< all m are whole
 };
 
-void put(LaneTriple& to, int lane, const Vec3& v) {
-  to.x[lane] = v.x();
-  to.y[lane] = v.y();
-  to.z[lane] = v.z();
-}
 Vec3 take(const LaneTriple& from, int lane) {
   return {from.x[lane], from.y[lane], from.z[lane]};
 }
-void put(LaneQuat& to, int lane, const Quat& q) {
-  to.w[lane] = q.w();
-  put(to.v, lane, q.vec());
+
+/// Eight doubles of each lane's row, as columns.
+using Columns = std::array<Lanes, 8>;
+using Rows = std::array<const double*, kLanes>;
+
+#if defined(__AVX512F__)
+/// Turns a square of eight by eight over its diagonal: three rounds of a perfect shuffle.
+void transpose(Columns& c) {
+  for (int round = 0; round < 3; ++round) {
+    Columns next;
+    for (std::size_t k = 0; k < 4; ++k) {
+      next[2 * k] = __builtin_shufflevector(c[k], c[k + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+      next[2 * k + 1] = __builtin_shufflevector(c[k], c[k + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+    c = next;
+  }
+}
+Columns load_columns(const Rows& rows) {
+  Columns c;
+  for (std::size_t k = 0; k < 8; ++k) std::memcpy(&c[k], rows[k], sizeof(Lanes));
+  transpose(c);
+  return c;
+}
+/// Rows of the first `count` lanes.
+void store_columns(Columns c, const std::array<double*, kLanes>& rows, std::size_t count) {
+  transpose(c);
+  for (std::size_t k = 0; k < count; ++k) std::memcpy(rows[k], &c[k], sizeof(Lanes));
+}
+#else
+Columns load_columns(const Rows& rows) {
+  Columns c;
+  for (std::size_t k = 0; k < 8; ++k)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) c[k][lane] = rows[lane][k];
+  return c;
+}
+void store_columns(const Columns& c, const std::array<double*, kLanes>& rows, std::size_t count) {
+  for (std::size_t lane = 0; lane < count; ++lane)
+    for (std::size_t k = 0; k < 8; ++k) rows[lane][k] = c[k][lane];
+}
+#endif
+
+// A body is four numbers of its quaternion (x, y, z, w), three semi-axes and m; a memory's first eight are
+// both surface points and two of the normal's.
+static_assert(sizeof(TurnedShape) == 8 * sizeof(double) && sizeof(PairMemory) == 9 * sizeof(double));
+
+struct LaneBody {
+  LaneQuat q;
+  LaneTriple axes;
+  Lanes m;
+};
+LaneBody body_of(const Columns& c) {
+  return {{c[3], {c[0], c[1], c[2]}}, {c[4], c[5], c[6]}, c[7]};
+}
+
+LaneMask whole(Lanes m) {
+  const Lanes nearest = __builtin_convertvector(__builtin_convertvector(m, LaneMask), Lanes);
+  return (nearest == m) & (m <= 17.0);
 }
 
 /// `chosen` may be shorter than the lanes: the last is repeated.
-Gathered gather(std::span<const Superquadric> bodies, std::span<const BodyPair> pairs,
+Gathered gather(std::span<const TurnedShape> bodies, std::span<const BodyPair> pairs,
                 std::span<const PairMemory> memory, std::span<const std::uint32_t> chosen) {
   Gathered g;
-  LaneQuat q_b;
+  Rows row_a, row_b, row_memory;
   LaneTriple d;
-  LaneTriple normal;
-  for (int lane = 0; lane < kLanes; ++lane) {
-    const std::size_t k = chosen[std::min(static_cast<std::size_t>(lane), chosen.size() - 1)];
-    const BodyPair& pair = pairs[k];
-    const Superquadric& a = bodies[pair.a];
-    const Superquadric& b = bodies[pair.b];
-    put(g.q_a, lane, a.q);
-    put(q_b, lane, b.q);
-    put(g.axes_a, lane, a.semi_axes);
-    put(g.axes_b, lane, b.semi_axes);
-    g.m_a[lane] = a.m;
-    g.m_b[lane] = b.m;
-    put(d, lane, pair.d);
-    put(g.x, lane, memory[k].surface_a);
-    put(g.y, lane, memory[k].surface_b);
-    put(normal, lane, memory[k].normal);
-    g.whole = g.whole && a.m == std::floor(a.m) && b.m == std::floor(b.m) && a.m <= 17 && b.m <= 17;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    const BodyPair& pair = pairs[chosen[std::min(lane, chosen.size() - 1)]];
+    row_a[lane] = bodies[pair.a].q.coeffs().data();
+    row_b[lane] = bodies[pair.b].q.coeffs().data();
+    row_memory[lane] = memory[pair.memory].surface_a.data();
+    d.x[lane] = pair.d.x();
+    d.y[lane] = pair.d.y();
+    d.z[lane] = pair.d.z();
   }
-  const LaneQuat to_a = conjugate(g.q_a);
-  g.pair.rotation = matrix(product(to_a, q_b));
+  const LaneBody a = body_of(load_columns(row_a)), b = body_of(load_columns(row_b));
+  const Columns known = load_columns(row_memory);
+  g.q_a = a.q;
+  g.axes_a = a.axes;
+  g.axes_b = b.axes;
+  g.m_a = a.m;
+  g.m_b = b.m;
+  g.x = {known[0], known[1], known[2]};
+  g.y = {known[3], known[4], known[5]};
+  g.whole = !any(~(whole(a.m) & whole(b.m)));
+  const LaneQuat to_a = conjugate(a.q);
+  g.pair.rotation = matrix(product(to_a, b.q));
   g.pair.d = rotate(to_a, d);
-  g.normal = rotate(to_a, normal);
   const auto least = [](const LaneTriple& t) { return newton::smaller(t.x, newton::smaller(t.y, t.z)); };
-  g.pair.least = newton::smaller(least(g.axes_a), least(g.axes_b));
+  g.pair.least = newton::smaller(least(a.axes), least(b.axes));
   return g;
-}
-
-/// Support function [m] along n.
-Lanes support_height(const LaneTriple& axes, Lanes m, const LaneTriple& n) {
-  const LaneTriple an{newton::absolute(axes.x * n.x), newton::absolute(axes.y * n.y),
-                      newton::absolute(axes.z * n.z)};
-  const Lanes largest = newton::larger(an.x, newton::larger(an.y, an.z));
-  const Lanes exponent = m / (m - 1.0);
-  const Lanes sum = newton::power(an.x / largest, exponent) + newton::power(an.y / largest, exponent) +
-                    newton::power(an.z / largest, exponent);
-  return largest * newton::power(sum, 1.0 / exponent);
-}
-
-/// Lanes whose last normal still separates, beyond the rounding of the support function.
-LaneMask separated(const Gathered& g) {
-  const LaneTriple ry = g.pair.rotation.forth(g.y);
-  const LaneTriple w{ry.x + g.pair.d.x - g.x.x, ry.y + g.pair.d.y - g.x.y, ry.z + g.pair.d.z - g.x.z};
-  // The points known bound the gap along n from above: no need to look where they already overlap.
-  const LaneMask may = dot(g.normal, w) > 0.0;
-  if (!any(may)) return may;
-  const LaneTriple back = g.pair.rotation.back(g.normal);
-  const Lanes gap = dot(g.normal, g.pair.d) - support_height(g.axes_a, g.m_a, g.normal) -
-                    support_height(g.axes_b, g.m_b, back);
-  return may & (gap > 1e-12 * g.pair.least);
 }
 
 struct Solved {
@@ -185,60 +210,65 @@ Solved iterate(Gathered& g) {
   return solved;
 }
 
-PairOutcome solve_alone(std::span<const Superquadric> bodies, const BodyPair& pair, PairMemory& memory,
+PairOutcome solve_alone(std::span<const TurnedShape> bodies, const BodyPair& pair, PairMemory& memory,
                         ContactGeometry& geometry) {
-  Superquadric b = bodies[pair.b];
-  b.x = bodies[pair.a].x + pair.d;
-  return superquadric_pair(bodies[pair.a], b, memory, geometry);
+  const TurnedShape &a = bodies[pair.a], &b = bodies[pair.b];
+  return superquadric_pair({Vec3::Zero(), a.q, a.semi_axes, a.m}, {pair.d, b.q, b.semi_axes, b.m}, memory,
+                           geometry);
 }
 
 bool cold(const PairMemory& memory) {
   return memory.normal.squaredNorm() == 0 || memory.surface_a.squaredNorm() == 0;
 }
 
+/// Writes what was solved, for the lanes that are done.
+void give_back(const Solved& solved, std::span<const BodyPair> pairs, std::span<const std::uint32_t> chosen,
+               std::span<PairMemory> memory, std::span<ContactGeometry> geometry,
+               std::span<PairOutcome> outcome) {
+  std::array<double*, kLanes> rows{};
+  std::array<double, 8> nowhere;
+  for (std::size_t lane = 0; lane < chosen.size(); ++lane)
+    rows[lane] =
+        solved.done[lane] != 0 ? memory[pairs[chosen[lane]].memory].surface_a.data() : nowhere.data();
+  const LaneTriple &x = solved.x, &y = solved.y, &n = solved.normal;
+  store_columns({x.x, x.y, x.z, y.x, y.y, y.z, n.x, n.y}, rows, chosen.size());
+  for (std::size_t lane = 0; lane < chosen.size(); ++lane) {
+    if (solved.done[lane] == 0) continue;
+    const std::size_t k = chosen[lane];
+    const auto at = static_cast<int>(lane);
+    memory[pairs[k].memory].normal.z() = n.z[at];
+    geometry[k] = {take(solved.point, at), take(n, at), -solved.gap[at]};
+    outcome[k] = solved.gap[at] < 0 ? PairOutcome::converged : PairOutcome::separated;
+  }
+}
+
 }  // namespace
 
-void superquadric_pairs(std::span<const Superquadric> bodies, std::span<const BodyPair> pairs,
+void superquadric_pairs(std::span<const TurnedShape> bodies, std::span<const BodyPair> pairs,
                         std::span<PairMemory> memory, std::span<ContactGeometry> geometry,
                         std::span<PairOutcome> outcome) {
-  assert(memory.size() == pairs.size() && geometry.size() == pairs.size() && outcome.size() == pairs.size());
-  std::array<std::uint32_t, kBlock> warm, close;
+  assert(geometry.size() == pairs.size() && outcome.size() == pairs.size());
+  std::array<std::uint32_t, kBlock> warm;
   for (std::size_t begin = 0; begin < pairs.size(); begin += kBlock) {
     const std::size_t end = std::min(pairs.size(), begin + kBlock);
-    std::size_t warm_count = 0, close_count = 0;
+    std::size_t warm_count = 0;
+    const auto alone = [&](std::size_t k) {
+      outcome[k] = solve_alone(bodies, pairs[k], memory[pairs[k].memory], geometry[k]);
+    };
     for (std::size_t k = begin; k < end; ++k) {
-      if (cold(memory[k]))
-        outcome[k] = solve_alone(bodies, pairs[k], memory[k], geometry[k]);
+      if (cold(memory[pairs[k].memory]))
+        alone(k);
       else
         warm[warm_count++] = static_cast<std::uint32_t>(k);
     }
-    // Leave out what still stands apart.
     for (std::size_t i = 0; i < warm_count; i += kLanes) {
       const std::size_t count = std::min<std::size_t>(kLanes, warm_count - i);
       const std::span<const std::uint32_t> chosen(&warm[i], count);
-      const LaneMask apart = separated(gather(bodies, pairs, memory, chosen));
-      for (std::size_t lane = 0; lane < count; ++lane) {
-        if (apart[lane] != 0)
-          outcome[chosen[lane]] = PairOutcome::separated;
-        else
-          close[close_count++] = chosen[lane];
-      }
-    }
-    for (std::size_t i = 0; i < close_count; i += kLanes) {
-      const std::size_t count = std::min<std::size_t>(kLanes, close_count - i);
-      const std::span<const std::uint32_t> chosen(&close[i], count);
       Gathered g = gather(bodies, pairs, memory, chosen);
       const Solved solved = g.whole ? iterate<newton::LaneWholePower>(g) : iterate<newton::LaneAnyPower>(g);
-      for (int lane = 0; lane < static_cast<int>(count); ++lane) {
-        const std::size_t k = chosen[static_cast<std::size_t>(lane)];
-        if (solved.done[lane] == 0) {
-          outcome[k] = solve_alone(bodies, pairs[k], memory[k], geometry[k]);
-          continue;
-        }
-        memory[k] = {take(solved.x, lane), take(solved.y, lane), take(solved.normal, lane)};
-        geometry[k] = {bodies[pairs[k].a].x + take(solved.point, lane), memory[k].normal, -solved.gap[lane]};
-        outcome[k] = solved.gap[lane] < 0 ? PairOutcome::converged : PairOutcome::separated;
-      }
+      give_back(solved, pairs, chosen, memory, geometry, outcome);
+      for (std::size_t lane = 0; lane < count; ++lane)
+        if (solved.done[lane] == 0) alone(chosen[lane]);
     }
   }
 }

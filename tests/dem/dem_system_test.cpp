@@ -114,7 +114,7 @@ TEST(StateExchange, ContinuesBitForBit) {
   DemScene scene = scene_of({0.3, 0.5, 0.05}, 0.02, {make_sphere(), make_superquadric(1.5, 0.8, 3)});
   scene.smallest_size = 0.01;
   DemSystem first({}, scene, walls);
-  fill_block(first, 6, Vec3(-0.1, -0.1, 0), 0.01, 0.02, 8, 5, 2);
+  fill_block(first, 7, Vec3(-0.1, -0.1, 0), 0.01, 0.02, 8, 5, 2);  // more than a chunk: they are sorted
   const double dt = first.step_size();
   run(first, 250 * dt);
   MemoryArchive archive;

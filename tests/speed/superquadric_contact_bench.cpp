@@ -19,6 +19,7 @@ constexpr std::size_t kCount = 4096;
 
 struct Contacts {
   std::vector<Superquadric> bodies[2];  ///< two poses, taken in turn
+  std::vector<TurnedShape> turned[2];   ///< the same
   std::vector<BodyPair> pairs[2];
   std::vector<double> overlap;  ///< of the first pose, known by construction [m]
   std::vector<PairMemory> memory{kCount};
@@ -48,10 +49,13 @@ Contacts make_contacts(double m, double aspect) {
     moved.q = (b.q * Quat(Eigen::AngleAxisd(2e-4, random.on_sphere()))).normalized();
     c.bodies[0].insert(c.bodies[0].end(), {a, b});
     c.bodies[1].insert(c.bodies[1].end(), {a, moved});
-    c.pairs[0].push_back({2 * k, 2 * k + 1, b.x - a.x});
-    c.pairs[1].push_back({2 * k, 2 * k + 1, moved.x - a.x});
+    for (int pose : {0, 1})
+      for (const Superquadric& one : {a, pose == 0 ? b : moved})
+        c.turned[pose].push_back({one.q, one.semi_axes, one.m});
+    c.pairs[0].push_back({b.x - a.x, 2 * k, 2 * k + 1, k});
+    c.pairs[1].push_back({moved.x - a.x, 2 * k, 2 * k + 1, k});
   }
-  superquadric_pairs(c.bodies[0], c.pairs[0], c.memory, c.geometry, c.outcome);
+  superquadric_pairs(c.turned[0], c.pairs[0], c.memory, c.geometry, c.outcome);
   return c;
 }
 
@@ -80,7 +84,7 @@ void run(benchmark::State& state, double m, double aspect, const Solve& solve) {
 }
 
 void all_at_once(Contacts& c, int pose) {
-  superquadric_pairs(c.bodies[pose], c.pairs[pose], c.memory, c.geometry, c.outcome);
+  superquadric_pairs(c.turned[pose], c.pairs[pose], c.memory, c.geometry, c.outcome);
 }
 
 void one_by_one(Contacts& c, int pose) {
