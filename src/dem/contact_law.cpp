@@ -2,11 +2,12 @@
 
 #include <numbers>
 
+#include "dem/linear_contact.h"
+
 namespace sluice {
 
 namespace {
 constexpr double pi = std::numbers::pi;
-constexpr double rolling_damping_ratio = 0.3;  // Ai et al. (2011), their value for quasi-static beds
 
 /// Restitution of a contact that ends where the force does (convention B).
 double restitution_without_tension(double zeta) {
@@ -47,25 +48,31 @@ double contact_phase(double zeta, EndOfContact end) {
   return 2 * std::acosh(zeta) / std::sqrt(zeta * zeta - 1);
 }
 
+ContactForce contact_force(const ContactConstants& c, const Vec3& n, double overlap, const Vec3& velocity,
+                           double dt, Vec3& spring) {
+  LinearContact<double> contact{{n.x(), n.y(), n.z()},
+                                overlap,
+                                {velocity.x(), velocity.y(), velocity.z()},
+                                {spring.x(), spring.y(), spring.z()}};
+  const LinearForce<double> f = linear_contact<double>(
+      {c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.end == EndOfContact::no_tension}, dt, contact);
+  spring = {contact.spring.x, contact.spring.y, contact.spring.z};
+  return {{f.force.x, f.force.y, f.force.z}, f.normal, f.lost_normal, f.lost_friction, f.elastic};
+}
+
 RollingConstants rolling_constants(double rolling, double radius_effective, double k_n, double inertia,
                                    double normal_force) {
-  const double arm = rolling * radius_effective;
-  const double stiffness = 2.25 * k_n * arm * arm;
-  return {stiffness, 2 * rolling_damping_ratio * std::sqrt(stiffness * inertia),
-          arm * std::max(0.0, normal_force)};
+  const RollingResistance<double> r =
+      rolling_resistance(rolling, radius_effective, k_n, inertia, normal_force);
+  return {r.stiffness, r.damping, r.limit};
 }
 
 Vec3 rolling_torque(const RollingConstants& c, const Vec3& spin, double dt, Vec3& turned) {
-  turned += spin * dt;
-  Vec3 torque = c.stiffness * turned + c.damping * spin;
-  const double size2 = torque.squaredNorm();
-  if (size2 > c.limit * c.limit) {
-    // Plastic: the spring alone may hold the limit, the dashpot adds nothing once it rolls.
-    const double held = c.stiffness * turned.norm();
-    if (held > c.limit) turned *= c.limit / held;
-    torque *= c.limit / std::sqrt(size2);
-  }
-  return -torque;
+  lanes::Triple<double> held{turned.x(), turned.y(), turned.z()};
+  const lanes::Triple<double> torque =
+      rolling_moment<double>({c.stiffness, c.damping, c.limit}, {spin.x(), spin.y(), spin.z()}, dt, held);
+  turned = {held.x, held.y, held.z};
+  return {torque.x, torque.y, torque.z};
 }
 
 }  // namespace sluice

@@ -53,47 +53,12 @@ inline ContactConstants contact_constants(const ContactLaw& law, double k_n, dou
   return {k_n, tangential_ratio * k_n, c_n, std::sqrt(tangential_ratio) * c_n, law.friction, end};
 }
 
-/// Turns a stretched spring into the plane across n and keeps its length.
-inline void turn_into_plane(Vec3& spring, const Vec3& n) {
-  const double along = spring.dot(n);
-  if (along == 0) return;
-  const double before = spring.squaredNorm();
-  spring -= along * n;
-  const double after = spring.squaredNorm();
-  if (after > 0) spring *= std::sqrt(before / after);
-}
-
-/// One step of a contact.
+/// One step of a contact; see linear_contact in linear_contact.h, which does the same in lanes.
 /// @param spring    tangential stretch [m], in and out
 /// @param velocity  of the first body relative to the second [m/s]
 /// @pre overlap >= 0 [m]
-inline ContactForce contact_force(const ContactConstants& c, const Vec3& n, double overlap,
-                                  const Vec3& velocity, double dt, Vec3& spring) {
-  ContactForce result;
-  const double closing = velocity.dot(n);
-  const double from_spring = c.k_n * overlap;
-  result.normal = from_spring + c.c_n * closing;
-  if (c.end == EndOfContact::no_tension) result.normal = std::max(0.0, result.normal);
-  result.lost_normal = (result.normal - from_spring) * closing * dt;
-
-  const Vec3 sliding = velocity - closing * n;
-  const double held_before = 0.5 * c.k_t * spring.squaredNorm();
-  turn_into_plane(spring, n);
-  spring += sliding * dt;
-  Vec3 tangential = c.k_t * spring + c.c_t * sliding;
-  const double size2 = tangential.squaredNorm();
-  const double limit = c.friction * std::max(0.0, result.normal);
-  if (size2 > limit * limit) {
-    tangential *= limit / std::sqrt(size2);
-    // Cut back so that spring and dashpot together give the limit; no push, no stretch.
-    spring = limit > 0 ? Vec3((tangential - c.c_t * sliding) / c.k_t) : Vec3(Vec3::Zero());
-  }
-  const double held = 0.5 * c.k_t * spring.squaredNorm();
-  result.lost_friction = tangential.dot(sliding) * dt - (held - held_before);
-  result.elastic = 0.5 * from_spring * overlap + held;
-  result.force = -result.normal * n - tangential;
-  return result;
-}
+ContactForce contact_force(const ContactConstants& c, const Vec3& n, double overlap, const Vec3& velocity,
+                           double dt, Vec3& spring);
 
 /// Constants of rolling resistance in one contact.
 struct RollingConstants {

@@ -34,6 +34,10 @@ void DemSystem::Implementation::exchange_rocks(StateArchive& archive) {
   archive.values("wet_dose", rocks.wet_dose);
   archive.values("wetted", rocks.wetted);
   archive.values("angular_momentum", angular);
+  if (archive.loading() && !only_spheres) {
+    per_inertia.clear();
+    for (std::size_t i = 0; i < count(); ++i) per_inertia.push_back(inertia(i).cwiseInverse());
+  }
   archive.values("force", force);
   archive.values("torque", torque);
   archive.values("fluid_force", fluid_force);
@@ -141,11 +145,12 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
   bytes += bytes_of(rocks.shape) + bytes_of(rocks.material) + bytes_of(rocks.source) + bytes_of(rocks.size);
   bytes += bytes_of(rocks.mass) + bytes_of(rocks.radius) + bytes_of(rocks.birth) + bytes_of(rocks.wet_dose);
   bytes += bytes_of(angular) + bytes_of(force) + bytes_of(torque) + bytes_of(fluid_force);
-  bytes += bytes_of(fluid_torque) + bytes_of(listed_at) + bytes_of(margin) + bytes_of(bodies);
-  bytes += bytes_of(turned_shapes) + bytes_of(reactions) + bytes_of(room_reach) + bytes_of(near_walls);
+  bytes += bytes_of(fluid_torque) + bytes_of(listed_at) + bytes_of(margin);
+  bytes += bytes_of(turned_shapes) + bytes_of(rim_speed) + bytes_of(per_inertia) + bytes_of(reactions) +
+           bytes_of(room_reach) + bytes_of(near_walls);
   for (const PairScratch& scratch : pair_scratch)
-    bytes += bytes_of(scratch.candidates) + bytes_of(scratch.shaped) + bytes_of(scratch.geometry) +
-             bytes_of(scratch.outcome);
+    bytes += bytes_of(scratch.push) + bytes_of(scratch.spheres) + bytes_of(scratch.shaped) +
+             bytes_of(scratch.shaped_pairs) + bytes_of(scratch.geometry) + bytes_of(scratch.outcome);
   for (const RockWalls& near : near_walls) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
   for (const DemChunk& chunk : chunks)
     bytes += sizeof(chunk) + bytes_of(chunk.loads) + bytes_of(chunk.overlaps) + bytes_of(chunk.scratch.hits) +

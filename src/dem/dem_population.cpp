@@ -69,7 +69,10 @@ std::uint64_t DemSystem::add(const NewRock& rock) {
   s.momentum_added += mass * rock.v;
   r.wetted.push_back(0);
   const std::size_t i = s.count() - 1;
-  if (!s.only_spheres) s.angular.push_back(angular_momentum(r.q[i], r.w[i], s.inertia(i)));
+  if (!s.only_spheres) {
+    s.angular.push_back(angular_momentum(r.q[i], r.w[i], s.inertia(i)));
+    s.per_inertia.push_back(s.inertia(i).cwiseInverse());
+  }
   s.force.emplace_back(Vec3::Zero());
   s.torque.emplace_back(Vec3::Zero());
   if (!s.fluid_force.empty()) {
@@ -136,6 +139,7 @@ void DemSystem::Implementation::compact(const std::vector<int>& new_index, std::
   keep(rocks.wet_dose, new_index, kept);
   keep(rocks.wetted, new_index, kept);
   keep(angular, new_index, kept);
+  keep(per_inertia, new_index, kept);
   keep(force, new_index, kept);
   keep(torque, new_index, kept);
   keep(fluid_force, new_index, kept);

@@ -93,6 +93,12 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
     laws.push_back({damping_ratio(pair.restitution, config.end_of_contact), pair.friction, pair.rolling});
     has_rolling = has_rolling || pair.rolling > 0;
   }
+  const auto is_rock = [](const Material& m) { return m.density > 0; };
+  const auto& all = scene.materials.all;
+  if (std::count_if(all.begin(), all.end(), is_rock) == 1) {
+    const auto rock = static_cast<int>(std::find_if(all.begin(), all.end(), is_rock) - all.begin());
+    only_law = &law(rock, rock);
+  }
   for (const RockShape& shape : scene.shapes) {
     is_sphere.push_back(shape.is_sphere() ? 1 : 0);
     only_spheres = only_spheres && shape.is_sphere();

@@ -19,8 +19,8 @@
 
 namespace sluice {
 
-/// What the contact loop reads of a rock: two cache lines.
-struct alignas(64) Body {
+/// What a contact reads of a rock.
+struct Body {
   Vec3 x;         ///< [m]
   double radius;  ///< bounding [m]
   Vec3 v;         ///< at the half step [m/s]
@@ -31,26 +31,30 @@ struct alignas(64) Body {
   int shape;
 };
 
-/// What a contact gives to its second rock, where that belongs to another chunk.
-struct Reaction {
-  Vec3 force = Vec3::Zero();   ///< [N]
+/// Force and torque on a rock: one cache line, eight doubles to the lanes.
+struct alignas(64) Push {
+  Vec3 force = Vec3::Zero();  ///< [N]
+  double unused = 0;
   Vec3 torque = Vec3::Zero();  ///< [N m]
+  double unused_too = 0;
 };
 
 /// A listed pair of a chunk whose bounding spheres meet.
 struct Candidate {
+  Vec3 separation;  ///< centre of j (its nearest image) - centre of i [m]
   std::uint32_t pair, i, j;
-  std::uint32_t slot;   ///< of the reaction; no_slot where both rocks belong to the chunk
-  std::int32_t shaped;  ///< place among the pairs of superquadrics; -1 for two spheres
-  Vec3 separation;      ///< centre of j (its nearest image) - centre of i [m]
+  std::uint32_t slot;  ///< of the reaction on j; no_slot where j belongs to the chunk
   static constexpr std::uint32_t no_slot = 0xffffffff;
 };
 
-/// What the pairs of one chunk need while they are looked at; one a thread.
+/// What one chunk needs while its contacts are looked at; one a thread.
 struct PairScratch {
-  std::vector<Candidate> candidates;
-  std::vector<BodyPair> shaped;
-  std::vector<ContactGeometry> geometry;
+  std::size_t begin = 0;                  ///< first rock of the chunk
+  std::vector<Push> push;                 ///< on the rocks of the chunk
+  std::vector<Candidate> spheres;         ///< all of these touch
+  std::vector<Candidate> shaped;          ///< at least one is a superquadric
+  std::vector<BodyPair> shaped_pairs;     ///< the same
+  std::vector<ContactGeometry> geometry;  ///< of those
   std::vector<PairOutcome> outcome;
 };
 
@@ -80,7 +84,7 @@ struct DemChunk {
 
 /// Where two bodies touch and how easily they yield there.
 struct Touch {
-  Vec3 normal;
+  Vec3 normal;            ///< from the first to the second, unit
   Vec3 arm_a;             ///< from the centre of the first [m]
   double overlap;         ///< [m]
   double mass_effective;  ///< along the normal, lever arms included [kg]
@@ -108,6 +112,7 @@ struct DemSystem::Implementation {
 
   Rocks rocks;
   std::vector<Vec3> angular;        ///< angular momentum of rocks [kg m2/s]; empty where all are spheres
+  std::vector<Vec3> per_inertia;    ///< one over the principal inertia [1/(kg m2)]; empty likewise
   std::vector<Vec3> force, torque;  ///< of contacts, last step
   std::vector<Vec3> fluid_force, fluid_torque;  ///< empty until set
   std::vector<Vec3> listed_at;                  ///< where each rock was when the pairs were listed [m]
@@ -125,9 +130,9 @@ struct DemSystem::Implementation {
   mutable std::vector<WallLoad> load_sums;
 
   // rebuilt each step
-  std::vector<Body> bodies;
   std::vector<TurnedShape> turned_shapes;  ///< empty where all are spheres
-  std::vector<Reaction> reactions;         ///< by slot of the pair list
+  std::vector<double> rim_speed;           ///< fastest that turning moves a point [m/s]; empty likewise
+  std::vector<Push> reactions;             ///< by slot of the pair list
   std::vector<PairScratch> pair_scratch;   ///< by thread
 
   // for has_room
@@ -143,6 +148,8 @@ struct DemSystem::Implementation {
   Vec3 inertia(std::size_t i) const {
     return shape_of(i).inertia * (rocks.mass[i] * rocks.size[i] * rocks.size[i]);
   }
+  /// The law of all pairs of rocks, where there is but one rock material; else null.
+  const ContactLaw* only_law = nullptr;
   const ContactLaw& law(int a, int b) const {
     return laws[static_cast<std::size_t>(a) * scene.materials.all.size() + static_cast<std::size_t>(b)];
   }
@@ -155,7 +162,10 @@ struct DemSystem::Implementation {
   void step(double t, double dt);
   void prepare_chunks(double dt);
   void drift(const StepTime& time);
-  void describe(std::size_t i);
+  Body body_of(std::size_t i) const {
+    return {rocks.x[i], rocks.radius[i], rocks.v[i],        rocks.mass[i],
+            rocks.w[i], rocks.size[i],   rocks.material[i], rocks.shape[i]};
+  }
   void list_pairs(double dt);
   void sort_in_space();
   void contacts(const StepTime& time);
@@ -163,14 +173,16 @@ struct DemSystem::Implementation {
   void give_half_to_walls(double dt);
   void kick(std::size_t i, double seconds);
 
-  void find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t begin,
-                       std::size_t end, double dt);
-  bool keeps_clear(std::size_t p, const Body& a, const Body& b, double dt);
-  void pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t begin, std::size_t end,
-                const StepTime& time);
-  bool spheres_touch(const Candidate& candidate, Touch& touch) const;
-  bool superquadrics_touch(const Candidate& candidate, const PairScratch& scratch, Touch& touch);
-  void touch_pair(DemChunk& chunk, const Candidate& candidate, const Touch& touch, const StepTime& time);
+  void find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t end, double dt);
+  bool keeps_clear(std::size_t p, std::size_t i, std::size_t j, double dt);
+  void pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t end, const StepTime& time);
+  void solve_shaped(DemChunk& chunk, PairScratch& scratch);
+  Touch spheres_touch(const Candidate& candidate) const;
+  Touch superquadrics_touch(const Candidate& candidate, const ContactGeometry& geometry) const;
+  void touch_pair(DemChunk& chunk, PairScratch& scratch, const Candidate& candidate, const Touch& touch,
+                  const StepTime& time);
+  struct LaneContacts;
+  void touch_in_lanes(DemChunk& chunk, PairScratch& scratch, const StepTime& time);
   void end_pair(DemChunk& chunk, std::size_t i, std::size_t p);
   double yield(std::size_t i, const Vec3& arm, const Vec3& n) const;
   void walls_of(DemChunk& chunk, std::size_t i, const StepTime& time);

@@ -77,21 +77,17 @@ void DemSystem::Implementation::kick(std::size_t i, double seconds) {
     rocks.w[i] += seconds * moment / inertia(i).x();
   } else {
     angular[i] += seconds * moment;
-    rocks.w[i] = angular_velocity(rocks.q[i], angular[i], inertia(i));
+    rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
   }
 }
 
-void DemSystem::Implementation::describe(std::size_t i) {
-  bodies[i] = {rocks.x[i], rocks.radius[i], rocks.v[i],        rocks.mass[i],
-               rocks.w[i], rocks.size[i],   rocks.material[i], rocks.shape[i]};
-  if (only_spheres) return;
-  const RockShape& shape = shape_of(i);
-  turned_shapes[i] = {rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
-}
-
 void DemSystem::Implementation::drift(const StepTime& time) {
-  bodies.resize(count());
-  if (!only_spheres) turned_shapes.resize(count());
+  // Free rotation changes the angular velocity within a step, by far less than this.
+  constexpr double rotation_margin = 1.05;
+  if (!only_spheres) {
+    turned_shapes.resize(count());
+    rim_speed.resize(count());
+  }
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
     DemChunk& chunk = chunks[c];
     for (std::size_t i = begin; i < end; ++i) {
@@ -104,11 +100,16 @@ void DemSystem::Implementation::drift(const StepTime& time) {
                                          move.norm() / (0.5 * rocks.size[i]), longest_move),
                              "raise 'steps_per_contact' or check the speeds that enter");
       rocks.x[i] += move;
-      if (is_sphere[static_cast<std::size_t>(rocks.shape[i])]) {
+      if (has_sphere_shape(rocks.shape[i])) {
         rotate_sphere(rocks.q[i], rocks.w[i], time.dt);
       } else {
-        rotate_freely(rocks.q[i], angular[i], inertia(i), time.dt);
-        rocks.w[i] = angular_velocity(rocks.q[i], angular[i], inertia(i));
+        rotate_freely(rocks.q[i], angular[i], per_inertia[i], time.dt);
+        rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
+      }
+      if (!only_spheres) {
+        const RockShape& shape = shape_of(i);
+        turned_shapes[i] = {rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
+        rim_speed[i] = rotation_margin * rocks.w[i].norm() * rocks.radius[i];
       }
       Vec3 moved = rocks.x[i] - listed_at[i];
       if (periodic) {
@@ -121,7 +122,6 @@ void DemSystem::Implementation::drift(const StepTime& time) {
         chunk.fluid_impulse += fluid_force[i] * time.dt;
         chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * time.dt;
       }
-      describe(i);
     }
   });
 }
@@ -146,11 +146,15 @@ void DemSystem::Implementation::contacts(const StepTime& time) {
   reactions.resize(pairs.incoming.size());
   parallel_chunks_with(pair_scratch, count(), chunk_length,
                        [&](PairScratch& scratch, std::size_t c, std::size_t begin, std::size_t end) {
-                         std::fill(force.begin() + begin, force.begin() + end, Vec3::Zero());
-                         std::fill(torque.begin() + begin, torque.begin() + end, Vec3::Zero());
+                         scratch.begin = begin;
+                         scratch.push.assign(end - begin, {});
                          std::fill(reactions.begin() + pairs.out_start[c],
-                                   reactions.begin() + pairs.out_start[c + 1], Reaction{});
-                         pairs_of(chunks[c], scratch, c, begin, end, time);
+                                   reactions.begin() + pairs.out_start[c + 1], Push{});
+                         pairs_of(chunks[c], scratch, c, end, time);
+                         for (std::size_t i = begin; i < end; ++i) {
+                           force[i] = scratch.push[i - begin].force;
+                           torque[i] = scratch.push[i - begin].torque;
+                         }
                          if (has_walls)
                            for (std::size_t i = begin; i < end; ++i) walls_of(chunks[c], i, time);
                        });

@@ -22,100 +22,118 @@ double DemSystem::Implementation::yield(std::size_t i, const Vec3& arm, const Ve
   const double by_mass = 1 / rocks.mass[i];
   if (is_sphere[static_cast<std::size_t>(rocks.shape[i])]) return by_mass;
   const Vec3 lever = rocks.q[i].conjugate() * arm.cross(n);
-  return by_mass + lever.cwiseAbs2().cwiseQuotient(inertia(i)).sum();
+  return by_mass + lever.cwiseAbs2().dot(per_inertia[i]);
 }
 
 /// Whether two rocks that were some distance apart cannot have met in this step.
-bool DemSystem::Implementation::keeps_clear(std::size_t p, const Body& a, const Body& b, double dt) {
-  // Free rotation changes the angular velocity within a step, by far less than this.
-  constexpr double rotation_margin = 1.05;
+bool DemSystem::Implementation::keeps_clear(std::size_t p, std::size_t i, std::size_t j, double dt) {
   double& clear = pairs.clear[p];
   if (clear <= 0) return false;
-  clear -= dt * ((a.v - b.v).norm() + rotation_margin * (a.w.norm() * a.radius + b.w.norm() * b.radius));
+  clear -= dt * ((rocks.v[i] - rocks.v[j]).norm() + rim_speed[i] + rim_speed[j]);
   return clear > 0;
 }
 
 void DemSystem::Implementation::find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c,
-                                                std::size_t begin, std::size_t end, double dt) {
-  scratch.candidates.clear();
+                                                std::size_t end, double dt) {
+  constexpr std::size_t ahead = 12;  // pairs: by then the second rock has come from memory
+  const std::size_t begin = scratch.begin, last = pairs.start[end];
   scratch.shaped.clear();
+  scratch.shaped_pairs.clear();
+  // Written without looking whether a pair touches; only then counted.
+  scratch.spheres.resize(last - pairs.start[begin] + 1);
+  Candidate* next = scratch.spheres.data();
   std::uint32_t slot = pairs.out_start[c];
   for (std::size_t i = begin; i < end; ++i) {
-    const Body& a = bodies[i];
+    const Vec3 x = rocks.x[i];
+    const double radius = rocks.radius[i];
     for (std::size_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p) {
+      if (p + ahead < last) {
+        const auto soon = static_cast<std::size_t>(pairs.second[p + ahead]);
+        __builtin_prefetch(&rocks.x[soon]);
+        __builtin_prefetch(&rocks.v[soon]);
+      }
       const auto j = static_cast<std::size_t>(pairs.second[p]);
       const std::uint32_t own_slot = j >= end ? slot++ : Candidate::no_slot;
-      const Body& b = bodies[j];
-      const bool shaped = !only_spheres && !(has_sphere_shape(a.shape) && has_sphere_shape(b.shape));
-      if (shaped && keeps_clear(p, a, b, dt)) continue;
-      Vec3 separation = b.x - a.x;
+      const bool shaped =
+          !only_spheres && !(has_sphere_shape(rocks.shape[i]) && has_sphere_shape(rocks.shape[j]));
+      if (shaped && keeps_clear(p, i, j, dt)) continue;
+      Vec3 separation = rocks.x[j] - x;
       if (periodic) separation = scene.domain.nearest_image(separation);
-      const double distance2 = separation.squaredNorm(), reach = a.radius + b.radius;
-      if (distance2 >= reach * reach) {
-        if (pairs.touching[p]) end_pair(chunk, i, p);
-        if (shaped) pairs.clear[p] = std::sqrt(distance2) - reach;
-        continue;
+      const double distance2 = separation.squaredNorm(), reach = radius + rocks.radius[j];
+      const bool meet = distance2 < reach * reach;
+      if (!meet && pairs.touching[p]) end_pair(chunk, i, p);
+      const Candidate candidate{separation, static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(i),
+                                static_cast<std::uint32_t>(j), own_slot};
+      if (!shaped) {
+        *next = candidate;
+        next += meet;
+      } else if (meet) {
+        scratch.shaped.push_back(candidate);
+        scratch.shaped_pairs.push_back({separation, candidate.i, candidate.j, candidate.pair});
+      } else {
+        pairs.clear[p] = std::sqrt(distance2) - reach;
       }
-      const auto number = static_cast<std::uint32_t>(p);
-      const auto first = static_cast<std::uint32_t>(i), second = static_cast<std::uint32_t>(j);
-      const auto place = shaped ? static_cast<std::int32_t>(scratch.shaped.size()) : -1;
-      scratch.candidates.push_back({number, first, second, own_slot, place, separation});
-      if (shaped) scratch.shaped.push_back({separation, first, second, number});
     }
   }
+  scratch.spheres.resize(static_cast<std::size_t>(next - scratch.spheres.data()));
+}
+
+/// Keeps of the pairs of superquadrics those that touch.
+void DemSystem::Implementation::solve_shaped(DemChunk& chunk, PairScratch& scratch) {
+  constexpr double sure_part = 0.9;  // of a gap: the points are known to the solver's tolerance
+  scratch.geometry.assign(scratch.shaped.size(), {});
+  scratch.outcome.resize(scratch.shaped.size());
+  superquadric_pairs(turned_shapes, scratch.shaped_pairs, pairs.memory, scratch.geometry, scratch.outcome);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < scratch.shaped.size(); ++k) {
+    const Candidate& candidate = scratch.shaped[k];
+    const ContactGeometry& geometry = scratch.geometry[k];
+    if (scratch.outcome[k] == PairOutcome::separated || geometry.overlap <= 0) {
+      pairs.clear[candidate.pair] = -sure_part * geometry.overlap;
+      if (pairs.touching[candidate.pair]) end_pair(chunk, candidate.i, candidate.pair);
+      continue;
+    }
+    scratch.shaped[kept] = candidate;
+    scratch.geometry[kept++] = geometry;
+  }
+  scratch.shaped.resize(kept);
 }
 
 void DemSystem::Implementation::pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c,
-                                         std::size_t begin, std::size_t end, const StepTime& time) {
-  find_candidates(chunk, scratch, c, begin, end, time.dt);
-  if (!scratch.shaped.empty()) {
-    scratch.geometry.assign(scratch.shaped.size(), {});
-    scratch.outcome.resize(scratch.shaped.size());
-    superquadric_pairs(turned_shapes, scratch.shaped, pairs.memory, scratch.geometry, scratch.outcome);
-  }
-  for (const Candidate& candidate : scratch.candidates) {
-    Touch touch;
-    const bool touches = candidate.shaped < 0 ? spheres_touch(candidate, touch)
-                                              : superquadrics_touch(candidate, scratch, touch);
-    if (touches)
-      touch_pair(chunk, candidate, touch, time);
-    else if (pairs.touching[candidate.pair])
-      end_pair(chunk, candidate.i, candidate.pair);
-  }
+                                         std::size_t end, const StepTime& time) {
+  find_candidates(chunk, scratch, c, end, time.dt);
+  if (!scratch.shaped.empty()) solve_shaped(chunk, scratch);
+  touch_in_lanes(chunk, scratch, time);
 }
 
-bool DemSystem::Implementation::spheres_touch(const Candidate& candidate, Touch& touch) const {
-  const Body &a = bodies[candidate.i], &b = bodies[candidate.j];
+Touch DemSystem::Implementation::spheres_touch(const Candidate& candidate) const {
+  const double radius_a = rocks.radius[candidate.i], radius_b = rocks.radius[candidate.j];
+  const double mass_a = rocks.mass[candidate.i], mass_b = rocks.mass[candidate.j];
   const double distance = candidate.separation.norm();
-  touch.overlap = a.radius + b.radius - distance;
+  Touch touch;
+  touch.overlap = radius_a + radius_b - distance;
   touch.normal = distance > 0 ? Vec3(candidate.separation / distance) : Vec3(Vec3::UnitZ());
-  touch.arm_a = (a.radius - 0.5 * touch.overlap) * touch.normal;
-  touch.mass_effective = a.mass * b.mass / (a.mass + b.mass);
-  return true;
+  touch.arm_a = (radius_a - 0.5 * touch.overlap) * touch.normal;
+  touch.mass_effective = mass_a * mass_b / (mass_a + mass_b);
+  return touch;
 }
 
-bool DemSystem::Implementation::superquadrics_touch(const Candidate& candidate, const PairScratch& scratch,
-                                                    Touch& touch) {
-  const auto k = static_cast<std::size_t>(candidate.shaped);
-  const ContactGeometry& geometry = scratch.geometry[k];
-  if (scratch.outcome[k] == PairOutcome::separated || geometry.overlap <= 0) {
-    // Most of the gap: the points are known to the solver's tolerance.
-    constexpr double sure_part = 0.9;
-    pairs.clear[candidate.pair] = -sure_part * geometry.overlap;
-    return false;
-  }
+Touch DemSystem::Implementation::superquadrics_touch(const Candidate& candidate,
+                                                     const ContactGeometry& geometry) const {
+  Touch touch;
   touch.overlap = geometry.overlap;
   touch.normal = geometry.normal;
   touch.arm_a = geometry.point;
   touch.mass_effective = 1 / (yield(candidate.i, touch.arm_a, touch.normal) +
                               yield(candidate.j, touch.arm_a - candidate.separation, touch.normal));
-  return true;
+  return touch;
 }
 
-void DemSystem::Implementation::touch_pair(DemChunk& chunk, const Candidate& candidate, const Touch& touch,
-                                           const StepTime& time) {
+/// One contact on its own: what touch_in_lanes does for laws that lanes do not know.
+void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch, const Candidate& candidate,
+                                           const Touch& touch, const StepTime& time) {
   const std::size_t i = candidate.i, j = candidate.j, p = candidate.pair;
-  const Body &a = bodies[i], &b = bodies[j];
+  const Body a = body_of(i), b = body_of(j);
   note_overlap(chunk, a.size <= b.size ? i : j, 2 * touch.overlap / std::min(a.size, b.size), time);
   const ContactLaw& pair_law = law(a.material, b.material);
   const double k_n = limits.stiffness_per_size * 2 * a.size * b.size / (a.size + b.size);
@@ -143,19 +161,18 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, const Candidate& can
     chunk.lost_friction -= moment.dot(spin) * time.dt;
   }
   pairs.touching[p] = 1;
-  force[i] += contact.force;
-  torque[i] += torque_a;
-  if (candidate.slot == Candidate::no_slot) {
-    force[j] -= contact.force;
-    torque[j] += torque_b;
-  } else {
-    reactions[candidate.slot] = {-contact.force, torque_b};
-  }
+  Push& on_a = scratch.push[i - scratch.begin];
+  on_a.force += contact.force;
+  on_a.torque += torque_a;
+  Push& on_b =
+      candidate.slot == Candidate::no_slot ? scratch.push[j - scratch.begin] : reactions[candidate.slot];
+  on_b.force -= contact.force;
+  on_b.torque += torque_b;
 }
 
 void DemSystem::Implementation::end_pair(DemChunk& chunk, std::size_t i, std::size_t p) {
   // A spring that is still stretched snaps back.
-  const Body &a = bodies[i], &b = bodies[static_cast<std::size_t>(pairs.second[p])];
+  const Body a = body_of(i), b = body_of(static_cast<std::size_t>(pairs.second[p]));
   const double k_n = limits.stiffness_per_size * 2 * a.size * b.size / (a.size + b.size);
   chunk.lost_friction += 0.5 * config.tangential_ratio * k_n * pairs.spring[p].squaredNorm();
   pairs.touching[p] = 0;

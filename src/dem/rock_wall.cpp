@@ -8,7 +8,7 @@ constexpr double deepest_start = 0.25;  // of the smallest semi-axis
 }  // namespace
 
 void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const StepTime& time) {
-  const Body& body = bodies[i];
+  const Body body = body_of(i);
   RockWalls& near = near_walls[i];
   const double margin = wall_skin * body.radius;
   if (!((body.x - near.at).squaredNorm() < margin * margin)) {
@@ -36,7 +36,7 @@ void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const S
 
 void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch,
                                            const StepTime& time) {
-  const Body& body = bodies[i];
+  const Body body = body_of(i);
   note_overlap(chunk, i, 2 * touch.overlap / body.size, time);
   const ContactLaw& pair_law = law(body.material, walls.all()[static_cast<std::size_t>(touch.wall)].material);
   const double k_n = limits.stiffness_per_size * body.size;

@@ -70,13 +70,14 @@ void DemSystem::Implementation::sort_in_space() {
   permute(rocks.wet_dose, order);
   permute(rocks.wetted, order);
   permute(angular, order);
+  permute(per_inertia, order);
   permute(force, order);
   permute(torque, order);
   permute(fluid_force, order);
   permute(fluid_torque, order);
   permute(near_walls, order);
-  permute(bodies, order);
   permute(turned_shapes, order);
+  permute(rim_speed, order);
 }
 
 }  // namespace sluice

@@ -18,18 +18,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "dem/superquadric_lanes.h"
+#include "dem/lanes.h"
 
 namespace sluice::newton {
 
-template <class Real>
-struct Triple {
-  Real x, y, z;
-};
-template <class Real>
-Real dot(const Triple<Real>& a, const Triple<Real>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
+using namespace lanes;
 
 template <class Real>
 struct Rotation {

@@ -3,14 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cstring>
 
+#include "dem/lane_rows.h"
 #include "dem/superquadric_newton.h"
 
 namespace sluice {
 
 namespace {
 
+using lanes::Columns;
+using lanes::load_columns;
+using lanes::Rows;
 using newton::all_lanes;
 using newton::any;
 using newton::Body;
@@ -34,28 +37,15 @@ struct LaneQuat {
   LaneTriple v;
 };
 
-LaneTriple cross(const LaneTriple& a, const LaneTriple& b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-LaneTriple sum(const LaneTriple& a, const LaneTriple& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-LaneTriple scaled(const Lanes& s, const LaneTriple& a) {
-  return {s * a.x, s * a.y, s * a.z};
-}
-LaneTriple choose(const LaneMask& mask, const LaneTriple& yes, const LaneTriple& no) {
-  return {newton::select(mask, yes.x, no.x), newton::select(mask, yes.y, no.y),
-          newton::select(mask, yes.z, no.z)};
-}
 LaneQuat conjugate(const LaneQuat& q) {
   return {q.w, {-q.v.x, -q.v.y, -q.v.z}};
 }
 LaneQuat product(const LaneQuat& p, const LaneQuat& q) {
-  return {p.w * q.w - dot(p.v, q.v), sum(sum(scaled(p.w, q.v), scaled(q.w, p.v)), cross(p.v, q.v))};
+  return {p.w * q.w - dot(p.v, q.v), p.w * q.v + q.w * p.v + cross(p.v, q.v)};
 }
 LaneTriple rotate(const LaneQuat& q, const LaneTriple& x) {
-  const LaneTriple t = scaled(all_lanes(2.0), cross(q.v, x));
-  return sum(sum(x, scaled(q.w, t)), cross(q.v, t));
+  const LaneTriple t = all_lanes(2.0) * cross(q.v, x);
+  return x + q.w * t + cross(q.v, t);
 }
 newton::Rotation<Lanes> matrix(const LaneQuat& q) {
   const Lanes x2 = 2.0 * q.v.x, y2 = 2.0 * q.v.y, z2 = 2.0 * q.v.z;
@@ -80,46 +70,6 @@ struct Gathered {
 Vec3 take(const LaneTriple& from, int lane) {
   return {from.x[lane], from.y[lane], from.z[lane]};
 }
-
-/// Eight doubles of each lane's row, as columns.
-using Columns = std::array<Lanes, 8>;
-using Rows = std::array<const double*, kLanes>;
-
-#if defined(__AVX512F__)
-/// Turns a square of eight by eight over its diagonal: three rounds of a perfect shuffle.
-void transpose(Columns& c) {
-  for (int round = 0; round < 3; ++round) {
-    Columns next;
-    for (std::size_t k = 0; k < 4; ++k) {
-      next[2 * k] = __builtin_shufflevector(c[k], c[k + 4], 0, 8, 1, 9, 2, 10, 3, 11);
-      next[2 * k + 1] = __builtin_shufflevector(c[k], c[k + 4], 4, 12, 5, 13, 6, 14, 7, 15);
-    }
-    c = next;
-  }
-}
-Columns load_columns(const Rows& rows) {
-  Columns c;
-  for (std::size_t k = 0; k < 8; ++k) std::memcpy(&c[k], rows[k], sizeof(Lanes));
-  transpose(c);
-  return c;
-}
-/// Rows of the first `count` lanes.
-void store_columns(Columns c, const std::array<double*, kLanes>& rows, std::size_t count) {
-  transpose(c);
-  for (std::size_t k = 0; k < count; ++k) std::memcpy(rows[k], &c[k], sizeof(Lanes));
-}
-#else
-Columns load_columns(const Rows& rows) {
-  Columns c;
-  for (std::size_t k = 0; k < 8; ++k)
-    for (std::size_t lane = 0; lane < kLanes; ++lane) c[k][lane] = rows[lane][k];
-  return c;
-}
-void store_columns(const Columns& c, const std::array<double*, kLanes>& rows, std::size_t count) {
-  for (std::size_t lane = 0; lane < count; ++lane)
-    for (std::size_t k = 0; k < 8; ++k) rows[lane][k] = c[k][lane];
-}
-#endif
 
 // A body is four numbers of its quaternion (x, y, z, w), three semi-axes and m; a memory's first eight are
 // both surface points and two of the normal's.
@@ -195,16 +145,15 @@ Solved iterate(Gathered& g) {
     // The last step is taken in any case, to first order where it ends the iteration.
     newton::advance(g.pair, e, x, y);
     if (!any(now)) continue;
-    const LaneTriple n = sum(e.n, sum(scaled(e.turn1, e.e1), scaled(e.turn2, e.e2)));
-    solved.normal = choose(now, scaled(newton::reciprocal_root(dot(n, n)), n), solved.normal);
+    const LaneTriple n = e.n + e.turn1 * e.e1 + e.turn2 * e.e2;
+    solved.normal = select(now, newton::reciprocal_root(dot(n, n)) * n, solved.normal);
     solved.gap = newton::select(now, e.s, solved.gap);
-    solved.x = choose(now, x, solved.x);
-    solved.y = choose(now, y, solved.y);
+    solved.x = select(now, x, solved.x);
+    solved.y = select(now, y, solved.y);
     solved.done |= now;
     if (!any(~solved.done)) break;
   }
-  const LaneTriple middle =
-      scaled(all_lanes(0.5), sum(solved.x, sum(g.pair.rotation.forth(solved.y), g.pair.d)));
+  const LaneTriple middle = all_lanes(0.5) * (solved.x + g.pair.rotation.forth(solved.y) + g.pair.d);
   solved.point = rotate(g.q_a, middle);
   solved.normal = rotate(g.q_a, solved.normal);
   return solved;
@@ -231,7 +180,7 @@ void give_back(const Solved& solved, std::span<const BodyPair> pairs, std::span<
     rows[lane] =
         solved.done[lane] != 0 ? memory[pairs[chosen[lane]].memory].surface_a.data() : nowhere.data();
   const LaneTriple &x = solved.x, &y = solved.y, &n = solved.normal;
-  store_columns({x.x, x.y, x.z, y.x, y.y, y.z, n.x, n.y}, rows, chosen.size());
+  lanes::store_columns({x.x, x.y, x.z, y.x, y.y, y.z, n.x, n.y}, rows, chosen.size());
   for (std::size_t lane = 0; lane < chosen.size(); ++lane) {
     if (solved.done[lane] == 0) continue;
     const std::size_t k = chosen[lane];

@@ -5,6 +5,8 @@
 #include <array>
 #include <limits>
 
+#include "dem/linear_contact.h"
+
 namespace sluice {
 namespace {
 
@@ -82,7 +84,9 @@ TEST(TangentialForce, SpringTurnsWithTheContactAndKeepsItsLength) {
   Vec3 spring(1e-4, 2e-4, 0);
   const double length = spring.norm();
   const Vec3 n = Vec3(0.1, -0.2, 1).normalized();
-  turn_into_plane(spring, n);
+  const lanes::Triple<double> turned =
+      turned_into_plane<double>({spring.x(), spring.y(), spring.z()}, {n.x(), n.y(), n.z()});
+  spring = {turned.x, turned.y, turned.z};
   EXPECT_NEAR(spring.dot(n), 0, 1e-19);
   EXPECT_NEAR(spring.norm(), length, 4 * std::numeric_limits<double>::epsilon() * length);
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Doubles side by side, as wide as the processor's registers, for the kernels of superquadric_newton.h.
-/// Every lane's result depends on that lane alone.
+/// Doubles side by side, as wide as the processor's registers, for the kernels of contacts. Every lane's
+/// result depends on that lane alone. The same functions take plain doubles, so that one source serves both.
 
 #if defined(__AVX512F__)
 #include <immintrin.h>
@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-namespace sluice::newton {
+namespace sluice::lanes {
 
 inline double select(bool mask, double yes, double no) {
   return mask ? yes : no;
@@ -79,6 +79,35 @@ inline bool any(LaneMask mask) {
 }
 inline Lanes all_lanes(double value) {
   return Lanes{} + value;
+}
+
+template <class Real>
+struct Triple {
+  Real x, y, z;
+};
+template <class Real>
+Real dot(const Triple<Real>& a, const Triple<Real>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class Real>
+Triple<Real> cross(const Triple<Real>& a, const Triple<Real>& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+template <class Real>
+Triple<Real> operator+(const Triple<Real>& a, const Triple<Real>& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class Real>
+Triple<Real> operator-(const Triple<Real>& a, const Triple<Real>& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class Real>
+Triple<Real> operator*(const Real& s, const Triple<Real>& a) {
+  return {s * a.x, s * a.y, s * a.z};
+}
+template <class Mask, class Real>
+Triple<Real> select(const Mask& mask, const Triple<Real>& yes, const Triple<Real>& no) {
+  return {select(mask, yes.x, no.x), select(mask, yes.y, no.y), select(mask, yes.z, no.z)};
 }
 
 template <class Real>
@@ -181,4 +210,4 @@ class LaneAnyPower {
   Lanes m_, root_;
 };
 
-}  // namespace sluice::newton
+}  // namespace sluice::lanes

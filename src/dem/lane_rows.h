@@ -1,0 +1,108 @@
+#pragma once
+/// Rows of memory as lanes: from one row a lane to one vector a column, and back.
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <vector>
+
+#include "base/vec.h"
+#include "dem/lanes.h"
+
+namespace sluice::lanes {
+
+using LaneIndices = std::array<std::uint32_t, kLanes>;
+using Rows = std::array<const double*, kLanes>;
+/// Eight doubles of each lane's row, as columns.
+using Columns = std::array<Lanes, 8>;
+
+/// base[at[lane]] of each lane.
+inline Lanes load_each(const std::vector<double>& base, const LaneIndices& at) {
+  Lanes out;
+  for (std::size_t k = 0; k < kLanes; ++k) out[k] = base[at[k]];
+  return out;
+}
+
+#if defined(__AVX512F__)
+
+/// Turns a square of eight by eight over its diagonal: three rounds of a perfect shuffle.
+inline void transpose(Columns& c) {
+  for (int round = 0; round < 3; ++round) {
+    Columns next;
+    for (std::size_t k = 0; k < 4; ++k) {
+      next[2 * k] = __builtin_shufflevector(c[k], c[k + 4], 0, 8, 1, 9, 2, 10, 3, 11);
+      next[2 * k + 1] = __builtin_shufflevector(c[k], c[k + 4], 4, 12, 5, 13, 6, 14, 7, 15);
+    }
+    c = next;
+  }
+}
+
+inline Columns load_columns(const Rows& rows) {
+  Columns c;
+  for (std::size_t k = 0; k < 8; ++k) std::memcpy(&c[k], rows[k], sizeof(Lanes));
+  transpose(c);
+  return c;
+}
+
+/// Rows of the first `count` lanes.
+inline void store_columns(Columns c, const std::array<double*, kLanes>& rows, std::size_t count) {
+  transpose(c);
+  for (std::size_t k = 0; k < count; ++k) std::memcpy(rows[k], &c[k], sizeof(Lanes));
+}
+
+/// Three doubles of each lane's row.
+inline Triple<Lanes> load_triples(const Rows& rows) {
+  using Half = double __attribute__((vector_size(32)));
+  std::array<Lanes, 4> z;  // rows k and k + 4 side by side
+  for (std::size_t k = 0; k < 4; ++k) {
+    const Half low = _mm256_maskz_loadu_pd(7, rows[k]), high = _mm256_maskz_loadu_pd(7, rows[k + 4]);
+    z[k] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  const Lanes xz_01 = __builtin_shufflevector(z[0], z[1], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes xz_23 = __builtin_shufflevector(z[2], z[3], 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes y_01 = __builtin_shufflevector(z[0], z[1], 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes y_23 = __builtin_shufflevector(z[2], z[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  return {__builtin_shufflevector(xz_01, xz_23, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(y_01, y_23, 0, 1, 8, 9, 4, 5, 12, 13),
+          __builtin_shufflevector(xz_01, xz_23, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+
+#else
+
+inline Columns load_columns(const Rows& rows) {
+  Columns c;
+  for (std::size_t k = 0; k < 8; ++k)
+    for (std::size_t lane = 0; lane < kLanes; ++lane) c[k][lane] = rows[lane][k];
+  return c;
+}
+
+inline void store_columns(const Columns& c, const std::array<double*, kLanes>& rows, std::size_t count) {
+  for (std::size_t lane = 0; lane < count; ++lane)
+    for (std::size_t k = 0; k < 8; ++k) rows[lane][k] = c[k][lane];
+}
+
+inline Triple<Lanes> load_triples(const Rows& rows) {
+  Triple<Lanes> t;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    t.x[lane] = rows[lane][0];
+    t.y[lane] = rows[lane][1];
+    t.z[lane] = rows[lane][2];
+  }
+  return t;
+}
+
+#endif
+
+inline Triple<Lanes> load_triples(const std::vector<Vec3>& base, const LaneIndices& at) {
+  Rows rows;
+  for (std::size_t k = 0; k < kLanes; ++k) rows[k] = base[at[k]].data();
+  return load_triples(rows);
+}
+
+/// Gives the first `count` lanes to their vectors.
+inline void store_triples(const Triple<Lanes>& t, std::vector<Vec3>& base, const LaneIndices& at,
+                          std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) base[at[k]] = {t.x[k], t.y[k], t.z[k]};
+}
+
+}  // namespace sluice::lanes
