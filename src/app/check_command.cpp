@@ -35,11 +35,13 @@ void print_steps(const Simulation& simulation) {
   fmt::print("\n");
   if (const DemSystem* rocks = simulation.parts().rocks.get()) {
     const DemStepLimits& l = rocks->limits();
-    fmt::print(
-        "rocks: step {:.3e} s (from {}), shortest contact {:.3e} s = {:.0f} steps, k_n {:.3e} N/m per m of "
-        "size (from {})\n",
-        l.step, l.governed_by, l.contact_time, l.contact_time / l.step, l.stiffness_per_size,
-        l.stiffness_from);
+    fmt::print("rocks: step {:.3e} s (from {}{}), shortest contact {:.3e} s = {:.0f} steps", l.step,
+               l.governed_by, l.contact.empty() ? "" : " of " + l.contact, l.contact_time,
+               l.contact_time / l.step);
+    if (l.stiffness_per_size > 0)
+      fmt::print(", k_n {:.3e} N/m per m of size (from {})", l.stiffness_per_size, l.stiffness_from);
+    if (l.hertz_overlap > 0) fmt::print(", Hertz overlap to {:.2g} % of radius", 100 * l.hertz_overlap);
+    fmt::print("\n");
   }
   if (const FluidSystem* water = simulation.parts().water.get()) {
     const FluidStepLimits& l = water->limits();

@@ -129,7 +129,9 @@ void fill_clock(RunManifest& m, const RunState& run) {
   if (parts.rocks) {
     m.time.dt_rock_s = simulation.time_step().dt_rock();
     m.time.rock_steps = m.time.steps * simulation.time_step().rock_substeps;
-    m.time.rock_step_governed_by = parts.rocks->limits().governed_by;
+    const DemStepLimits& limits = parts.rocks->limits();
+    m.time.rock_step_governed_by =
+        limits.governed_by + (limits.contact.empty() ? "" : " of " + limits.contact);
   }
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Force between two touching bodies: linear spring and dashpot along the normal, incremental spring
 /// and dashpot with Coulomb's limit across it (Sinnott & Cleary 2017, eq. 1-2), rolling resistance.
+/// The other laws (hertz_mindlin.h) set the constants of this one anew at every overlap.
 ///
 /// Conventions: `n` points from the first body to the second; velocities are those of the first
 /// relative to the second at the contact point; forces act on the first, their negative on the second.
@@ -9,6 +10,7 @@
 #include <cmath>
 
 #include "base/vec.h"
+#include "dem/materials.h"
 
 namespace sluice {
 
@@ -29,6 +31,11 @@ struct ContactLaw {
   double zeta = 0;      ///< damping over critical damping
   double friction = 0;  ///< Coulomb coefficient
   double rolling = 0;   ///< rolling torque over R F_n
+  ForceLaw force = ForceLaw::linear;
+  double adhesion = 0;     ///< pull-off force over effective radius [N/m]
+  double modulus = 0;      ///< E* of hertz_mindlin [Pa]
+  double shear_ratio = 0;  ///< k_t over tangent normal stiffness of hertz_mindlin, 4 G* / E*
+  bool plain() const { return force == ForceLaw::linear && adhesion == 0; }
 };
 
 /// Constants of one contact.
@@ -41,7 +48,7 @@ struct ContactConstants {
 
 struct ContactForce {
   Vec3 force = Vec3::Zero();  ///< on the first body [N]
-  double normal = 0;          ///< pushing apart [N]
+  double normal = 0;          ///< pushing apart, adhesion left out [N]
   double lost_normal = 0;     ///< energy dissipated in this step [J]
   double lost_friction = 0;   ///< [J]
   double elastic = 0;         ///< held in both springs at the end of the step [J]

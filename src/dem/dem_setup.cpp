@@ -48,6 +48,22 @@ void check_materials(const Materials& materials, std::vector<InputProblem>& prob
            "0.1 to 0.4 is usual for rock");
     if (!(pair.friction >= 0) || !(pair.rolling >= 0))
       note(problems, "friction", "is negative", "friction takes energy", "use 0 or more");
+    if (!(pair.adhesion >= 0))
+      note(problems, "adhesion", fmt::format("is {} N/m", pair.adhesion), "adhesion pulls", "use 0 or more");
+  }
+  if (materials.pairs.size() != n * n) return;
+  for (std::size_t a = 0; a < n; ++a) {
+    const Material& material = materials.all[a];
+    const auto first = materials.pairs.begin() + static_cast<std::ptrdiff_t>(a * n);
+    if (!std::any_of(first, first + static_cast<std::ptrdiff_t>(n),
+                     [](const PairProperties& p) { return p.law == ForceLaw::hertz_mindlin; }))
+      continue;
+    if (!(material.youngs_modulus > 0))
+      note(problems, material.name, fmt::format("has youngs_modulus {}", material.youngs_modulus),
+           "a contact of it is hertz_mindlin", "use Pa");
+    if (!(material.poissons_ratio > -1 && material.poissons_ratio <= 0.5))
+      note(problems, material.name, fmt::format("has poissons_ratio {}", material.poissons_ratio),
+           "an elastic solid has one in (-1, 0.5]", "0.2 to 0.3 is usual for rock");
   }
 }
 
@@ -89,10 +105,13 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
   if (!problems.empty()) throw InputError(std::move(problems));
 
   limits = choose_limits(config, scene);
-  for (const PairProperties& pair : scene.materials.pairs) {
-    laws.push_back({damping_ratio(pair.restitution, config.end_of_contact), pair.friction, pair.rolling});
-    has_rolling = has_rolling || pair.rolling > 0;
-  }
+  const int kinds = static_cast<int>(scene.materials.all.size());
+  for (int a = 0; a < kinds; ++a)
+    for (int b = 0; b < kinds; ++b) {
+      laws.push_back(contact_law(scene.materials, a, b, config.end_of_contact));
+      has_rolling = has_rolling || laws.back().rolling > 0;
+      plain_laws = plain_laws && laws.back().plain();
+    }
   const auto is_rock = [](const Material& m) { return m.density > 0; };
   const auto& all = scene.materials.all;
   if (std::count_if(all.begin(), all.end(), is_rock) == 1) {

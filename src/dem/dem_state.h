@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "dem/dem_system.h"
+#include "dem/hertz_mindlin.h"
 #include "dem/pair_list.h"
 #include "dem/superquadric_pairs.h"
 #include "dem/wall_contact.h"
@@ -109,6 +110,7 @@ struct DemSystem::Implementation {
   std::vector<ContactLaw> laws;         ///< by pair of materials
   std::vector<std::uint8_t> is_sphere;  ///< by shape
   bool only_spheres = true, has_rolling = false, has_walls = false, periodic = false;
+  bool plain_laws = true;  ///< every pair is linear, without adhesion
 
   Rocks rocks;
   std::vector<Vec3> angular;        ///< angular momentum of rocks [kg m2/s]; empty where all are spheres

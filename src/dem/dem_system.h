@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "base/domain.h"
@@ -31,17 +33,21 @@ struct DemConfig {
   double steps_per_contact = 30;             ///< at least
   EndOfContact end_of_contact = EndOfContact::no_tension;
   double overlap_limit = 0.3;  ///< of the radius; beyond it the run stops (exit 3)
+  std::vector<std::pair<const char*, Location>> linear_keys;  ///< given, and of the linear law alone
   void keys(Schema& s);
 };
 
 /// What the time step comes from, for `check` and the run header.
 struct DemStepLimits {
-  double stiffness_per_size = 0;    ///< k_n / size [N/m2]
-  double network = 0;               ///< critical step of the stiffest contact possible [s]
-  double contact_time = 0;          ///< shortest contact duration [s]
-  double step = 0;                  ///< chosen [s]
-  const char* governed_by = "";     ///< "network_fraction" or "steps_per_contact"
-  const char* stiffness_from = "";  ///< "impact_overlap", "bed_overlap" or "stiffness_per_size"
+  double stiffness_per_size = 0;  ///< k_n / size of the linear law; 0 where it is not used [N/m2]
+  double network = 0;             ///< critical step of the stiffest contact possible [s]
+  double contact_time = 0;        ///< shortest contact duration [s]
+  double step = 0;                ///< chosen [s]
+  const char* governed_by = "";   ///< "network_fraction" or "steps_per_contact"
+  const char* stiffness_from =
+      "";                    ///< "impact_overlap", "bed_overlap", "stiffness_per_size", "youngs_modulus"
+  std::string contact;       ///< that governs: "" for the linear law, else "hertz_mindlin, rock on steel"
+  double hertz_overlap = 0;  ///< over radius, at the impact speed or in the bed; 0 without hertz_mindlin
 };
 
 struct DemEnergy {

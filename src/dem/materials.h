@@ -8,7 +8,15 @@ namespace sluice {
 
 struct Material {
   std::string name;
-  double density = 0;  ///< [kg/m3]; 0 for materials that only walls have
+  double density = 0;         ///< [kg/m3]; 0 for materials that only walls have
+  double youngs_modulus = 0;  ///< [Pa]; 0 where no law asks for it
+  double poissons_ratio = 0;  ///< in (-1, 0.5]
+};
+
+/// Where the force of a contact comes from.
+enum class ForceLaw {
+  linear,         ///< spring and dashpot; its stiffness is chosen so that rocks overlap little
+  hertz_mindlin,  ///< elastic spheres; its stiffness is that of the materials
 };
 
 /// One pair of materials.
@@ -16,6 +24,9 @@ struct PairProperties {
   double restitution = 0.3;  ///< normal, in (0, 1]
   double friction = 0.5;     ///< Coulomb coefficient, sliding and static
   double rolling = 0;        ///< rolling resistance coefficient (torque <= rolling * R * F_n)
+  ForceLaw law = ForceLaw::linear;
+  double adhesion = 0;  ///< pull-off force over effective radius [N/m]
+  bool meets = true;    ///< false: the two never touch, and ask for no stiffness
 };
 
 struct Materials {

@@ -11,7 +11,8 @@ void DemSystem::Implementation::note_overlap(DemChunk& chunk, std::size_t i, dou
     throw NumericalError(
         "rocks.substeps", time.t,
         fmt::format("rock {} overlap is {:.3g} radius (limit {})", rocks.id[i], ratio, config.overlap_limit),
-        "raise 'impact_speed' or 'stiffness_per_size', or lower 'network_fraction'");
+        plain_laws ? "raise 'impact_speed' or 'stiffness_per_size', or lower 'network_fraction'"
+                   : "raise 'impact_speed', 'youngs_modulus' or 'stiffness_per_size', or lower 'adhesion'");
   chunk.overlap_most = std::max(chunk.overlap_most, ratio);
   ++chunk.contacts;
   if (time.sampled) chunk.overlaps.push_back(ratio);
@@ -103,7 +104,12 @@ void DemSystem::Implementation::pairs_of(DemChunk& chunk, PairScratch& scratch, 
                                          std::size_t end, const StepTime& time) {
   find_candidates(chunk, scratch, c, end, time.dt);
   if (!scratch.shaped.empty()) solve_shaped(chunk, scratch);
-  touch_in_lanes(chunk, scratch, time);
+  if (plain_laws) return touch_in_lanes(chunk, scratch, time);
+  for (const Candidate& candidate : scratch.spheres)
+    touch_pair(chunk, scratch, candidate, spheres_touch(candidate), time);
+  for (std::size_t k = 0; k < scratch.shaped.size(); ++k)
+    touch_pair(chunk, scratch, scratch.shaped[k], superquadrics_touch(scratch.shaped[k], scratch.geometry[k]),
+               time);
 }
 
 Touch DemSystem::Implementation::spheres_touch(const Candidate& candidate) const {
@@ -141,8 +147,9 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch
       contact_constants(pair_law, k_n, config.tangential_ratio, touch.mass_effective, config.end_of_contact);
   const Vec3 &arm_a = touch.arm_a, arm_b = touch.arm_a - candidate.separation;
   const Vec3 velocity = a.v - b.v + a.w.cross(arm_a) - b.w.cross(arm_b);
+  const Indentation at{touch.overlap, 0.5 * a.size * b.size / (a.size + b.size), touch.mass_effective};
   const ContactForce contact =
-      contact_force(constants, touch.normal, touch.overlap, velocity, time.dt, pairs.spring[p]);
+      law_force(pair_law, constants, at, touch.normal, velocity, time.dt, pairs.spring[p]);
   Vec3 torque_a = arm_a.cross(contact.force), torque_b = arm_b.cross(-contact.force);
   chunk.lost_normal += contact.lost_normal;
   chunk.lost_friction += contact.lost_friction;
@@ -151,9 +158,9 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch
   if (has_rolling && pair_law.rolling > 0) {
     const double radius_a = 0.5 * a.size, radius_b = 0.5 * b.size;
     const double about_a = 1.4 * a.mass * radius_a * radius_a, about_b = 1.4 * b.mass * radius_b * radius_b;
-    const RollingConstants rolling =
-        rolling_constants(pair_law.rolling, radius_a * radius_b / (radius_a + radius_b), k_n,
-                          about_a * about_b / (about_a + about_b), contact.normal);
+    const RollingConstants rolling = rolling_constants(
+        pair_law.rolling, radius_a * radius_b / (radius_a + radius_b), normal_stiffness(pair_law, k_n, at),
+        about_a * about_b / (about_a + about_b), contact.normal);
     const Vec3 spin = a.w - b.w;
     const Vec3 moment = rolling_torque(rolling, spin, time.dt, pairs.turned[p]);
     torque_a += moment;
@@ -174,7 +181,9 @@ void DemSystem::Implementation::end_pair(DemChunk& chunk, std::size_t i, std::si
   // A spring that is still stretched snaps back.
   const Body a = body_of(i), b = body_of(static_cast<std::size_t>(pairs.second[p]));
   const double k_n = limits.stiffness_per_size * 2 * a.size * b.size / (a.size + b.size);
-  chunk.lost_friction += 0.5 * config.tangential_ratio * k_n * pairs.spring[p].squaredNorm();
+  const double k_spring = spring_stiffness(law(a.material, b.material), config.tangential_ratio * k_n,
+                                           0.5 * a.size * b.size / (a.size + b.size));
+  chunk.lost_friction += 0.5 * k_spring * pairs.spring[p].squaredNorm();
   pairs.touching[p] = 0;
   pairs.spring[p].setZero();
   if (has_rolling) pairs.turned[p].setZero();

@@ -26,8 +26,10 @@ void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const S
   }
   if (chunk.scratch.found.empty() && near.touches.empty()) return;
   carry_history(near.touches, chunk.scratch, [&](const WallTouch& old) {
+    const int wall_material = walls.all()[static_cast<std::size_t>(old.wall)].material;
     const double k_t = config.tangential_ratio * limits.stiffness_per_size * body.size;
-    const double lost = 0.5 * k_t * old.spring.squaredNorm();
+    const double k_spring = spring_stiffness(law(body.material, wall_material), k_t, 0.5 * body.size);
+    const double lost = 0.5 * k_spring * old.spring.squaredNorm();
     chunk.lost_friction += lost;
     chunk.loads[static_cast<std::size_t>(old.wall)].sliding_energy += lost;
   });
@@ -41,18 +43,21 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
   const ContactLaw& pair_law = law(body.material, walls.all()[static_cast<std::size_t>(touch.wall)].material);
   const double k_n = limits.stiffness_per_size * body.size;
   const Vec3 arm = touch.point - body.x;
-  const ContactConstants constants = contact_constants(
-      pair_law, k_n, config.tangential_ratio, 1 / yield(i, arm, touch.normal), config.end_of_contact);
+  const Indentation at{touch.overlap, 0.5 * body.size, 1 / yield(i, arm, touch.normal)};
+  const ContactConstants constants =
+      contact_constants(pair_law, k_n, config.tangential_ratio, at.mass_effective, config.end_of_contact);
   const Vec3 surface_velocity = walls.surface_velocity(touch.wall, touch.point);
   const Vec3 velocity = body.v + body.w.cross(arm) - surface_velocity;
   const ContactForce contact =
-      contact_force(constants, touch.normal, touch.overlap, velocity, time.dt, touch.spring);
+      plain_laws ? contact_force(constants, touch.normal, touch.overlap, velocity, time.dt, touch.spring)
+                 : law_force(pair_law, constants, at, touch.normal, velocity, time.dt, touch.spring);
   Vec3 moment = Vec3::Zero();
   double lost_rolling = 0;
   if (has_rolling && pair_law.rolling > 0) {
     const double radius = 0.5 * body.size;
     const RollingConstants rolling =
-        rolling_constants(pair_law.rolling, radius, k_n, 1.4 * body.mass * radius * radius, contact.normal);
+        rolling_constants(pair_law.rolling, radius, normal_stiffness(pair_law, k_n, at),
+                          1.4 * body.mass * radius * radius, contact.normal);
     moment = rolling_torque(rolling, body.w, time.dt, touch.turned);
     lost_rolling = -moment.dot(body.w) * time.dt;
   }

@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 
+#include "dem/step_limits.h"
 #include "geometry/audit_mesh.h"
 #include "geometry/import_mesh.h"
 #include "processes/build_parts.h"
@@ -82,6 +83,38 @@ void check_entry(const WallConfig& entry, const Box& domain, std::span<const Wal
                         "check 'unit', or enlarge the domain"});
 }
 
+/// Elastic constants stand where a contact is made from them, and nowhere else.
+void check_elasticity(const ProcessConfig& config, std::vector<InputProblem>& problems) {
+  for (const MaterialConfig& m : config.materials) {
+    const auto named = std::find_if(config.contacts.begin(), config.contacts.end(), [&](const auto& c) {
+      return c.properties.law == ForceLaw::hertz_mindlin &&
+             std::find(c.between.begin(), c.between.end(), m.name) != c.between.end();
+    });
+    const bool needed = named != config.contacts.end();
+    const auto check = [&](const char* key, bool given, const Location& at, const char* example) {
+      if (needed && !given)
+        problems.push_back({m.where, key, fmt::format("is missing for '{}'", m.name),
+                            fmt::format("line {} makes {} on {} hertz_mindlin", named->law_at.line,
+                                        named->between[0], named->between[1]),
+                            fmt::format("add it, for example {}", example)});
+      if (!needed && given)
+        problems.push_back({at, key, fmt::format("has no effect on '{}'", m.name),
+                            "no contact of it has 'law: hertz_mindlin'", "set the law, or take it out"});
+    };
+    check("youngs_modulus", m.youngs_modulus.has_value(), m.youngs_modulus_at, "'youngs_modulus: 50 MPa'");
+    check("poissons_ratio", m.poissons_ratio.has_value(), m.poissons_ratio_at, "'poissons_ratio: 0.25'");
+  }
+}
+
+/// What sets the stiffness of the linear law is of no use where no rock has it.
+void check_linear_keys(const ProcessConfig& config, const Materials& materials,
+                       std::vector<InputProblem>& problems) {
+  if (!config.rocks || linear_law_used(materials)) return;
+  for (const auto& [key, at] : config.rocks->linear_keys)
+    problems.push_back({at, key, "has no effect", "every contact of the rocks has 'law: hertz_mindlin'",
+                        "take it out; the stiffness is that of 'youngs_modulus'"});
+}
+
 }  // namespace
 
 std::vector<Wall> build_walls(const ProcessConfig& config) {
@@ -141,8 +174,11 @@ std::vector<Wall> build_walls(const ProcessConfig& config) {
 Materials build_materials(const ProcessConfig& config) {
   Materials materials;
   std::vector<InputProblem> problems;
-  for (const MaterialConfig& m : config.materials) materials.all.push_back({m.name, m.density});
-  materials.pairs.assign(materials.all.size() * materials.all.size(), PairProperties{});
+  for (const MaterialConfig& m : config.materials)
+    materials.all.push_back({m.name, m.density, m.youngs_modulus.value_or(0), m.poissons_ratio.value_or(0)});
+  PairProperties unstated;
+  unstated.meets = false;
+  materials.pairs.assign(materials.all.size() * materials.all.size(), unstated);
   std::map<std::pair<std::size_t, std::size_t>, Location> stated;
   for (const ContactConfig& contact : config.contacts) {
     const std::size_t known = problems.size();
@@ -158,6 +194,8 @@ Materials build_materials(const ProcessConfig& config) {
     materials.pairs[a * materials.all.size() + b] = contact.properties;
     materials.pairs[b * materials.all.size() + a] = contact.properties;
   }
+  check_elasticity(config, problems);
+  check_linear_keys(config, materials, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
   return materials;
 }

@@ -57,6 +57,17 @@ void MaterialConfig::keys(Schema& s) {
   where = s.here();
   s.number("density", density,
            {.unit = "kg/m3", .above = 0, .doc = "needed for materials that rocks are made of"});
+  s.number("youngs_modulus", youngs_modulus,
+           {.unit = "Pa",
+            .above = 0,
+            .doc = "needed where a contact of it has 'law: hertz_mindlin', refused elsewhere",
+            .example = "50 MPa"});
+  s.number("poissons_ratio", poissons_ratio,
+           {.above = -1,
+            .at_most = 0.5,
+            .doc = "needed where a contact of it has 'law: hertz_mindlin', refused elsewhere"});
+  youngs_modulus_at = s.at("youngs_modulus");
+  poissons_ratio_at = s.at("poissons_ratio");
 }
 
 void ContactConfig::keys(Schema& s) {
@@ -70,6 +81,15 @@ void ContactConfig::keys(Schema& s) {
            {.required = true, .at_least = 0, .doc = "Coulomb coefficient, static and sliding"});
   s.number("rolling", properties.rolling,
            {.at_least = 0, .doc = "rolling resistance coefficient: torque over radius times normal force"});
+  s.choice("law", properties.law, {{"linear", ForceLaw::linear}, {"hertz_mindlin", ForceLaw::hertz_mindlin}},
+           {.doc = "linear: a spring as stiff as the overlaps under 'rocks' ask for; hertz_mindlin: elastic "
+                   "spheres of half the size, as stiff as the materials"});
+  law_at = s.at("law");
+  s.number("adhesion", properties.adhesion,
+           {.unit = "N/m",
+            .at_least = 0,
+            .doc = "force that draws the two together while they touch, over their effective radius "
+                   "R1 R2 / (R1 + R2); with either law"});
   if (s.given("between") && between.size() != 2)
     s.problem("between", "does not name two materials", "a contact has two sides", "write [rock, steel]");
 }

@@ -35,8 +35,10 @@ struct DomainConfig {
 /// One entry of `materials:`.
 struct MaterialConfig {
   std::string name;
-  double density = 0;  ///< [kg/m3]
-  Location where;
+  double density = 0;                    ///< [kg/m3]
+  std::optional<double> youngs_modulus;  ///< [Pa]
+  std::optional<double> poissons_ratio;
+  Location where, youngs_modulus_at, poissons_ratio_at;
   void keys(Schema& s);
 };
 
@@ -44,7 +46,7 @@ struct MaterialConfig {
 struct ContactConfig {
   std::vector<std::string> between;
   PairProperties properties;
-  Location where;
+  Location where, law_at;
   void keys(Schema& s);
 };
 

@@ -76,5 +76,68 @@ TEST(StepLimits, ShortenWithDampingAndWithLargerPartners) {
   EXPECT_NEAR(choose_limits(config, scene).network / plain.network, std::sqrt(1 + zeta * zeta) - zeta, 1e-9);
 }
 
+DemScene elastic_scene(double restitution) {
+  PairProperties pair{restitution, 0, 0};
+  pair.law = ForceLaw::hertz_mindlin;
+  DemScene scene = scene_of(pair, 0.02);
+  for (Material& material : scene.materials.all) {
+    material.youngs_modulus = 1e8;
+    material.poissons_ratio = 0.25;
+  }
+  return scene;
+}
+
+TEST(StepLimits, AreThoseOfTheShortestHertzContactWhereNoneIsLinear) {
+  DemConfig config;
+  config.impact_speed = 3;
+  config.network_fraction = 1;
+  const DemScene scene = elastic_scene(1);
+  const DemStepLimits limits = choose_limits(config, scene);
+  // 2.87 (m^2 / (R E^2 v))^(1/5) of two equal rocks
+  const double mass = rock_density * M_PI / 6 * 8e-6 / 2, modulus = 1e8 / (2 * (1 - 0.0625));
+  EXPECT_NEAR(limits.contact_time / std::pow(mass * mass / (0.005 * modulus * modulus * 3), 0.2), 2.8682655,
+              1e-6);
+  EXPECT_EQ(limits.stiffness_per_size, 0);
+  EXPECT_STREQ(limits.stiffness_from, "youngs_modulus");
+  EXPECT_EQ(limits.contact, "hertz_mindlin, rock on rock");
+  EXPECT_LE(limits.step, limits.contact_time / 30);
+  EXPECT_FALSE(linear_law_used(scene.materials));
+  // Faster impacts, stiffer materials and adhesion ask for shorter steps.
+  config.impact_speed = 6;
+  EXPECT_NEAR(choose_limits(config, scene).contact_time / limits.contact_time, std::pow(2, -0.2), 1e-9);
+  DemScene sticky = scene;
+  for (PairProperties& pair : sticky.materials.pairs) pair.adhesion = 1e4;
+  EXPECT_LT(choose_limits(config, sticky).network, choose_limits(config, scene).network);
+}
+
+TEST(StepLimits, KnowTheOverlapOfAHertzImpactAtTheSpeedStated) {
+  const Walls walls = walls_of(plane_wall(1));
+  DemConfig config;
+  config.impact_speed = 3;
+  DemScene scene = elastic_scene(1);
+  scene.gravity = Vec3::Zero();
+  DemSystem dem(config, scene, walls);
+  dem.add({.x = {0, 0, 0.01001}, .v = {0, 0, -3}, .size = 0.02});
+  run(dem, 0.003);
+  EXPECT_NEAR(dem.overlap_max() / 100, dem.limits().hertz_overlap, 2e-3 * dem.limits().hertz_overlap);
+}
+
+TEST(StepLimits, AreTheShorterOfBothLawsAndLeaveOutPairsThatNeverMeet) {
+  DemConfig config;
+  DemScene scene = elastic_scene(0.5);
+  const DemStepLimits elastic = choose_limits(config, scene);
+  scene.materials.pairs[0].law = ForceLaw::linear;  // rock on rock
+  const DemStepLimits both = choose_limits(config, scene);
+  EXPECT_TRUE(linear_law_used(scene.materials));
+  EXPECT_GT(both.stiffness_per_size, 0);
+  EXPECT_GT(both.hertz_overlap, 0);
+  config.stiffness_per_size = 1e10;
+  EXPECT_EQ(choose_limits(config, scene).contact, "");
+  EXPECT_LT(choose_limits(config, scene).step, elastic.step);
+  scene.materials.pairs[0].meets = false;
+  EXPECT_FALSE(linear_law_used(scene.materials));
+  EXPECT_EQ(choose_limits(config, scene).contact, "hertz_mindlin, rock on steel");
+}
+
 }  // namespace
 }  // namespace sluice

@@ -21,20 +21,22 @@ double sinking(const DemSystem& dem) {
 TEST(SphereOnWall, BouncesToTheHeightsOfItsRestitution) {
   // dem_bounce_heights.csv: h_n = h_0 e^(2 n).
   const Walls walls = walls_of(plane_wall(1));
-  DemConfig config;
-  config.steps_per_contact = 500;
-  DemSystem dem(config, scene_of({0.5, 0.5, 0}, size), walls);
-  dem.add({.x = {0.1, 0.05, radius + 0.4}, .size = size});
-  const double dt = dem.step_size();
-  std::vector<double> apex;
-  for (int k = 0; apex.size() < 3; ++k) {
-    const double before = dem.rocks().v[0].z();
-    dem.step(k * dt, dt);
-    if (before > 0 && dem.rocks().v[0].z() <= 0) apex.push_back(dem.rocks().x[0].z() - radius);
+  for (const auto& [e, heights] : {std::pair{0.5, std::array{0.1, 0.025, 0.00625}},
+                                   std::pair{0.7, std::array{0.196, 0.09604, 0.0470596}},
+                                   std::pair{0.9, std::array{0.324, 0.26244, 0.2125764}}}) {
+    DemConfig config;
+    config.steps_per_contact = 500;
+    DemSystem dem(config, scene_of({e, 0.5, 0}, size), walls);
+    dem.add({.x = {0.1, 0.05, radius + 0.4}, .size = size});
+    const double dt = dem.step_size();
+    std::vector<double> apex;
+    for (int k = 0; apex.size() < 3; ++k) {
+      const double before = dem.rocks().v[0].z();
+      dem.step(k * dt, dt);
+      if (before > 0 && dem.rocks().v[0].z() <= 0) apex.push_back(dem.rocks().x[0].z() - radius);
+    }
+    for (std::size_t n = 0; n < 3; ++n) EXPECT_NEAR(apex[n], heights[n], 0.016 * heights[n]) << e;
   }
-  EXPECT_NEAR(apex[0], 0.1, 1e-3);
-  EXPECT_NEAR(apex[1], 0.025, 3e-4);
-  EXPECT_NEAR(apex[2], 0.00625, 1e-4);
 }
 
 TEST(SphereOnWall, ObliqueImpactFollowsTheExactStickSlipSolution) {
@@ -75,14 +77,19 @@ TEST(SphereOnWall, GainsNoEnergyAtGrazingImpact) {
 }
 
 TEST(SphereOnWall, SlidesUntilItRollsAtFiveSeventhsOfItsSpeed) {
-  // dem_slide_to_roll.csv, mu = 0.5, v0 = 1 m/s: rolls from 0.0582496 s, x = 0.0499282 m.
+  // dem_slide_to_roll.csv, v0 = 1 m/s: friction, then when and where it begins to roll.
   const Walls walls = walls_of(plane_wall(1));
-  DemSystem dem({}, scene_of({0.5, 0.5, 0}, size), walls);
-  dem.add({.x = {0, 0, radius}, .v = {1, 0, 0}, .size = size});
-  run(dem, 0.15);
-  EXPECT_NEAR(dem.rocks().v[0].x(), 5.0 / 7, 3e-3);
-  EXPECT_NEAR(dem.rocks().w[0].y() * radius, 5.0 / 7, 3e-3);
-  EXPECT_NEAR(dem.rocks().x[0].x(), 0.049928228 + (0.15 - 0.0582496) * 5 / 7, 5e-4);
+  for (const auto& [mu, when, where] :
+       {std::array{0.2, 0.145623998835, 0.12482057043}, std::array{0.5, 0.058249599534, 0.049928228172},
+        std::array{1.0, 0.029124799767, 0.024964114086}}) {
+    DemSystem dem({}, scene_of({0.5, mu, 0}, size), walls);
+    dem.add({.x = {0, 0, radius}, .v = {1, 0, 0}, .size = size});
+    run(dem, 0.2);
+    EXPECT_NEAR(dem.rocks().v[0].x(), 5.0 / 7, 3e-3) << mu;
+    EXPECT_NEAR(dem.rocks().w[0].y() * radius, 5.0 / 7, 3e-3) << mu;
+    EXPECT_NEAR(dem.rocks().x[0].x(), where + (0.2 - when) * 5 / 7, 5e-4) << mu;
+    EXPECT_NEAR(dem.energy().kinetic / (0.5 * dem.rocks().mass[0]), 1 - 0.285714285714, 5e-3) << mu;
+  }
 }
 
 TEST(SphereOnWall, RollsOverAnyTriangulationAsOverOneRectangle) {
@@ -106,8 +113,12 @@ TEST(SphereOnIncline, RollsAndSlipsAsTheClosedFormSays) {
     double angle, mu, a, r_alpha;
   };
   for (const Case& c :
-       {Case{30, 0.1, 4.05542907889, 2.12392730278}, Case{30, 0.5, 3.50357142857, 3.50357142857},
-        Case{20, 0, 3.35521760602, 0}, Case{45, 0.3, 4.95479823103, 4.95479823103}}) {
+       {Case{5, 0.1, 0.610712740253, 0.610712740253}, Case{5, 1, 0.610712740253, 0.610712740253},
+        Case{20, 0, 3.35521760602, 0}, Case{20, 0.1, 2.43337914503, 2.30459615248},
+        Case{20, 0.2, 2.3965840043, 2.3965840043}, Case{30, 0.1, 4.05542907889, 2.12392730278},
+        Case{30, 0.5, 3.50357142857, 3.50357142857}, Case{35, 0.2, 4.01960852971, 4.01794077724},
+        Case{45, 0.3, 4.95479823103, 4.95479823103}, Case{60, 0.3, 7.02420921113, 3.67875},
+        Case{60, 0.5, 6.06836372223, 6.06836372223}}) {
     const double angle = c.angle * M_PI / 180;
     const Walls walls = walls_of(plane_wall(0.6, 7));
     DemScene scene = scene_of({0.5, c.mu, 0}, size);
@@ -137,6 +148,24 @@ TEST(SphereOnBelt, IsDraggedAtFrictionThenRolls) {
   const DemEnergy e = dem.energy();
   EXPECT_NEAR(e.wall_work, e.kinetic + e.dissipated_friction, 0.01 * e.wall_work);
   EXPECT_NEAR(dem.wall_loads()[0].impulse.x(), -dem.momentum().x(), 1e-12);
+}
+
+TEST(SphereOnBelt, RollsAtTwoSeventhsOfTheBeltWhateverItsSpeedAndFriction) {
+  // dem_belt.csv: belt speed, friction, end of slipping; the sphere is dropped at rest.
+  for (const auto& [speed, mu, end] :
+       {std::array{0.5, 0.1, 0.145623998835008}, std::array{0.5, 0.6, 0.0242706664725013},
+        std::array{2.0, 0.1, 0.582495995340032}, std::array{2.0, 0.3, 0.194165331780011},
+        std::array{2.0, 0.6, 0.0970826658900053}}) {
+    Wall belt = plane_wall(1);
+    belt.surface_velocity = Vec3(speed, 0, 0);
+    const Walls walls = walls_of(std::move(belt));
+    DemSystem dem({}, scene_of({0.5, mu, 0}, size), walls);
+    dem.add({.x = {-0.5, 0, radius}, .size = size});
+    run(dem, 0.8 * end);
+    EXPECT_NEAR(dem.rocks().v[0].x(), 0.8 * speed * 2 / 7, 0.01 * speed * 2 / 7) << speed << ' ' << mu;
+    run(dem, 0.3 * end);
+    EXPECT_NEAR(dem.rocks().v[0].x(), speed * 2 / 7, 0.01 * speed * 2 / 7) << speed << ' ' << mu;
+  }
 }
 
 TEST(SphereOnWall, HasItsWeightCarriedAndTheThirdLawHolds) {

@@ -356,5 +356,54 @@ TEST_F(BadInput, MayBeAMixingZoneThatIsNowhereOrTooFine) {
   expect_refused(with("cell: 0.2 m", "cell: 1 um"), 65, "cell", "about two top sizes");
 }
 
+/// The contact laws of the scene, with other text.
+std::string contacts_of(const std::string& rock, const std::string& steel, const std::string& on_rock,
+                        const std::string& on_steel) {
+  return "  rock: {density: 2700 kg/m3" + rock + "}\n  steel: {" + steel +
+         "}\ncontacts:\n  - {between: [rock, rock], friction: 0.6, restitution: 0.2" + on_rock +
+         "}\n  - {between: [rock, steel], friction: 0.5, restitution: 0.2" + on_steel + "}";
+}
+const std::string hertz = ", law: hertz_mindlin", elastic = "youngs_modulus: 50 MPa, poissons_ratio: 0.25";
+
+TEST_F(BadInput, IsNotFoundInASceneOfElasticAndAdhesiveContacts) {
+  const std::string old = contacts_of("", "", "", "");
+  for (const InputProblem& p :
+       problems_of(with(old, contacts_of(", " + elastic, elastic, hertz + ", adhesion: 5 N/m", hertz))))
+    ADD_FAILURE() << p.text();
+  std::string mixed = with(old, contacts_of(", " + elastic, "", hertz, ", adhesion: 5 N/m"));
+  mixed.replace(mixed.find("  impact_speed: 2 m/s"), 21, "  impact_speed: 2 m/s\n  tangential_ratio: 0.3");
+  for (const InputProblem& p : problems_of(mixed)) ADD_FAILURE() << p.text();
+}
+
+TEST_F(BadInput, MayBeAnElasticContactWithoutElasticConstants) {
+  const std::string old = contacts_of("", "", "", "");
+  expect_refused(with(old, contacts_of("", "", "", hertz)), 9, "youngs_modulus",
+                 "rock on steel hertz_mindlin");
+  expect_refused(with(old, contacts_of(", " + elastic, "youngs_modulus: 1 GPa", "", hertz)), 10,
+                 "poissons_ratio", "is missing for 'steel'");
+  EXPECT_EQ(problems_of(with(old, contacts_of("", "", "", hertz))).size(), 4u);
+  expect_refused(with(old, contacts_of(", youngs_modulus: 0 Pa, poissons_ratio: 0.2", "", hertz, "")), 9,
+                 "youngs_modulus", "out of range");
+  expect_refused(with(old, contacts_of(", youngs_modulus: 1 GPa, poissons_ratio: 0.6", "", hertz, "")), 9,
+                 "poissons_ratio", "out of range");
+}
+
+TEST_F(BadInput, MayBeAKeyOfTheOtherContactLaw) {
+  const std::string old = contacts_of("", "", "", "");
+  expect_refused(with(old, contacts_of("", elastic, "", "")), 10, "youngs_modulus",
+                 "has no effect on 'steel'");
+  for (const char* key : {"tangential_ratio: 0.3", "stiffness_per_size: 1e6 N/m2", "impact_overlap: 0.01"}) {
+    std::string text = with(old, contacts_of(", " + elastic, elastic, hertz, hertz));
+    text.replace(text.find("  impact_speed: 2 m/s"), 21, std::string("  impact_speed: 2 m/s\n  ") + key);
+    expect_refused(text, 22, std::string(key).substr(0, std::string(key).find(':')), "has no effect");
+  }
+}
+
+TEST_F(BadInput, MayBeAnUnknownContactLawOrAdhesionThatPushes) {
+  const std::string old = contacts_of("", "", "", "");
+  expect_refused(with(old, contacts_of("", "", ", law: hertz_mindlim", "")), 12, "law", "hertz_mindlin");
+  expect_refused(with(old, contacts_of("", "", ", adhesion: -1 N/m", "")), 12, "adhesion", "out of range");
+}
+
 }  // namespace
 }  // namespace sluice
