@@ -4,6 +4,14 @@
 
 namespace sluice {
 
+TriMesh mesh_at(const Wall& wall, double t) {
+  TriMesh mesh = wall.mesh;
+  if (!wall.motion) return mesh;
+  const Pose pose = pose_at(*wall.motion, t);
+  for (Vec3& x : mesh.vertices) x = pose.to_space(x);
+  return mesh;
+}
+
 Walls::Walls(std::vector<Wall> walls) : walls_(std::move(walls)) {
   for (std::size_t w = 0; w < walls_.size(); ++w) {
     mesh_.append(walls_[w].mesh);

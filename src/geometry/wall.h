@@ -5,11 +5,13 @@
 /// are all walls. Each phase keeps its own WallLoad per wall (base/load.h).
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "geometry/surface_query.h"
 #include "geometry/tri_mesh.h"
+#include "geometry/wall_motion.h"
 
 namespace sluice {
 
@@ -17,13 +19,17 @@ enum class BlocksPhase { both, rocks_only, water_only };
 
 struct Wall {
   std::string name;
-  TriMesh mesh;                          ///< [m]
+  TriMesh mesh;                          ///< at rest [m]
   int material = 0;                      ///< index into the scene's materials
   Vec3 surface_velocity = Vec3::Zero();  ///< of a belt: the surface moves, the shape does not [m/s]
   BlocksPhase blocks = BlocksPhase::both;
+  std::optional<WallMotion> motion;  ///< of the shape; the belt's velocity is then one in the rest frame
 };
 
-/// All walls of a scene as one triangle soup with queries.
+/// A wall's mesh where it is at time t [s].
+TriMesh mesh_at(const Wall& wall, double t);
+
+/// All walls of a scene, as they rest, as one triangle soup with queries.
 class Walls {
  public:
   Walls() : Walls(std::vector<Wall>{}) {}
