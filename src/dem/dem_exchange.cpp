@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include "base/parallel.h"
 #include "dem/dem_state.h"
 
@@ -101,10 +103,21 @@ void DemSystem::Implementation::exchange_tallies(StateArchive& archive) {
 }
 
 void DemSystem::Implementation::exchange_walls(StateArchive& archive) {
+  exchange_touches(archive, near_walls, has_walls ? count() : 0);
+  for (MovingWalls& part : moving) {
+    archive.enter(fmt::format("moving_walls.{}", &part - moving.data()));
+    exchange_touches(archive, part.near, count());
+    archive.leave();
+    if (archive.loading()) part.place(now);
+  }
+}
+
+void DemSystem::Implementation::exchange_touches(StateArchive& archive, std::vector<RockWalls>& near,
+                                                 std::size_t length) {
   std::vector<std::array<int, 5>> labels;  // rock, patch, wall, feature, side
   std::vector<std::array<double, 16>> values;
-  for (std::size_t i = 0; i < near_walls.size(); ++i)
-    for (const WallTouch& touch : near_walls[i].touches) {
+  for (std::size_t i = 0; i < near.size(); ++i)
+    for (const WallTouch& touch : near[i].touches) {
       labels.push_back({static_cast<int>(i), touch.patch, touch.wall, touch.feature, touch.side});
       std::array<double, 16> row{};
       put(row, 0, touch.normal);
@@ -119,13 +132,13 @@ void DemSystem::Implementation::exchange_walls(StateArchive& archive) {
   archive.values("wall_touches", values);
   if (!archive.loading()) return;
   // Which triangles are near is looked up again: contacts do not depend on what else is on the list.
-  near_walls.assign(has_walls ? count() : 0, {});
+  near.assign(length, {});
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const auto& [rock, patch, wall, feature, side] = labels[k];
     const auto& row = values[k];
-    near_walls[static_cast<std::size_t>(rock)].touches.push_back({patch, wall, feature, side, take(row, 0),
-                                                                  take(row, 12), row[15], take(row, 3),
-                                                                  take(row, 6), take(row, 9)});
+    near[static_cast<std::size_t>(rock)].touches.push_back({patch, wall, feature, side, take(row, 0),
+                                                            take(row, 12), row[15], take(row, 3),
+                                                            take(row, 6), take(row, 9)});
   }
 }
 
@@ -151,7 +164,14 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
   for (const PairScratch& scratch : pair_scratch)
     bytes += bytes_of(scratch.push) + bytes_of(scratch.spheres) + bytes_of(scratch.shaped) +
              bytes_of(scratch.shaped_pairs) + bytes_of(scratch.geometry) + bytes_of(scratch.outcome);
-  for (const RockWalls& near : near_walls) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
+  const auto add_near = [&](const std::vector<RockWalls>& all) {
+    for (const RockWalls& near : all) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
+  };
+  add_near(near_walls);
+  for (const MovingWalls& part : moving) {
+    bytes += part.surface.memory_bytes() + bytes_of(part.near);
+    add_near(part.near);
+  }
   for (const DemChunk& chunk : chunks)
     bytes += sizeof(chunk) + bytes_of(chunk.loads) + bytes_of(chunk.overlaps) + bytes_of(chunk.scratch.hits) +
              bytes_of(chunk.scratch.found);

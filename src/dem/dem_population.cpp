@@ -82,6 +82,7 @@ std::uint64_t DemSystem::add(const NewRock& rock) {
   s.listed_at.push_back(r.x[i]);
   s.margin.push_back(0);
   if (s.has_walls) s.near_walls.emplace_back();
+  for (MovingWalls& part : s.moving) part.near.emplace_back();
   s.list_valid = false;
   return r.id.back();
 }
@@ -103,15 +104,21 @@ bool DemSystem::Implementation::has_room(const Vec3& x, double radius, bool chec
   bool met = false;
   if (room_count > 0) room.near(x, radius, room.deepest(), [&](std::size_t j) { met = met || meets(j); });
   for (std::size_t j = room_count; j < count() && !met; ++j) met = meets(j);
-  if (met || !check_walls || !has_walls) return !met;
-  std::vector<int> near;
-  walls.query().triangles_in(Box{x, x}.grown(radius), near);
-  return std::none_of(near.begin(), near.end(), [&](int t) {
-    const WallTriangle& triangle = surface.triangle(t);
-    if (triangle.patch < 0) return false;
-    const auto& c = triangle.corner;
-    return (closest_on_triangle(x, c[0], c[1], c[2]) - x).squaredNorm() < radius * radius;
-  });
+  if (met || !check_walls) return !met;
+  const auto is_clear_of = [&](const WallsAndSurface& part, const Vec3& at) {
+    std::vector<int> near;
+    part.walls.query().triangles_in(Box{at, at}.grown(radius), near);
+    return std::none_of(near.begin(), near.end(), [&](int t) {
+      const WallTriangle& triangle = part.surface.triangle(t);
+      if (triangle.patch < 0) return false;
+      const auto& c = triangle.corner;
+      return (closest_on_triangle(at, c[0], c[1], c[2]) - at).squaredNorm() < radius * radius;
+    });
+  };
+  return (!has_walls || is_clear_of({still, surface}, x)) &&
+         std::all_of(moving.begin(), moving.end(), [&](const MovingWalls& part) {
+           return is_clear_of({part.walls, part.surface}, part.now.to_rest(x));
+         });
 }
 
 bool DemSystem::has_room(const Vec3& x, double radius, bool check_walls) const {
@@ -147,6 +154,7 @@ void DemSystem::Implementation::compact(const std::vector<int>& new_index, std::
   keep(listed_at, new_index, kept);
   keep(margin, new_index, kept);
   keep(near_walls, new_index, kept);
+  for (MovingWalls& part : moving) keep(part.near, new_index, kept);
   room_valid = false;
 }
 

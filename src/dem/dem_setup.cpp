@@ -91,7 +91,13 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
     : config(config_in),
       scene(std::move(scene_in)),
       walls(walls_in),
-      surface(walls_in),
+      still_part(std::any_of(walls.all().begin(), walls.all().end(),
+                             [](const Wall& w) { return w.motion.has_value(); })
+                     ? std::make_unique<Walls>(still_walls(walls))
+                     : nullptr),
+      still(still_part ? *still_part : walls),
+      surface(still),
+      moving(moving_walls(walls)),
       pairs({std::any_of(scene.materials.pairs.begin(), scene.materials.pairs.end(),
                          [](const PairProperties& p) { return p.rolling > 0; }),
              std::any_of(scene.shapes.begin(), scene.shapes.end(),

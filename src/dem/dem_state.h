@@ -14,6 +14,7 @@
 
 #include "dem/dem_system.h"
 #include "dem/hertz_mindlin.h"
+#include "dem/moving_walls.h"
 #include "dem/pair_list.h"
 #include "dem/superquadric_pairs.h"
 #include "dem/wall_contact.h"
@@ -59,13 +60,6 @@ struct PairScratch {
   std::vector<PairOutcome> outcome;
 };
 
-/// Triangles near a rock, and its contacts with them.
-struct RockWalls {
-  Vec3 at = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< where the triangles were looked up
-  std::vector<int> triangles;
-  std::vector<WallTouch> touches;
-};
-
 /// Tallies and scratch of one chunk of rocks.
 struct DemChunk {
   // since the run began
@@ -91,6 +85,18 @@ struct Touch {
   double mass_effective;  ///< along the normal, lever arms included [kg]
 };
 
+/// Walls and what rocks meet of them.
+struct WallsAndSurface {
+  const Walls& walls;
+  const WallSurface& surface;
+};
+
+/// Where a rock is, in the frame of the walls.
+struct RockPlace {
+  Vec3 x;  ///< [m]
+  Quat q;
+};
+
 struct StepTime {
   double t, dt;  ///< [s]
   bool sampled;  ///< overlaps are kept
@@ -105,7 +111,10 @@ struct DemSystem::Implementation {
   DemConfig config;
   DemScene scene;
   const Walls& walls;
-  WallSurface surface;
+  std::unique_ptr<Walls> still_part;  ///< only where walls move
+  const Walls& still;                 ///< the walls that do not
+  WallSurface surface;                ///< of those
+  std::vector<MovingWalls> moving;
   DemStepLimits limits;
   std::vector<ContactLaw> laws;         ///< by pair of materials
   std::vector<std::uint8_t> is_sphere;  ///< by shape
@@ -119,7 +128,7 @@ struct DemSystem::Implementation {
   std::vector<Vec3> fluid_force, fluid_torque;  ///< empty until set
   std::vector<Vec3> listed_at;                  ///< where each rock was when the pairs were listed [m]
   std::vector<double> margin;                   ///< how far it may go from there [m]
-  std::vector<RockWalls> near_walls;            ///< empty without walls
+  std::vector<RockWalls> near_walls;            ///< empty without still walls
   PairList pairs;
   bool list_valid = true;
   std::uint64_t next_id = 0, steps = 0, lists = 0;
@@ -173,6 +182,7 @@ struct DemSystem::Implementation {
   void contacts(const StepTime& time);
   void finish(const StepTime& time);
   void give_half_to_walls(double dt);
+  void take_half_of_work(double dt);
   void kick(std::size_t i, double seconds);
 
   void find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t end, double dt);
@@ -188,7 +198,12 @@ struct DemSystem::Implementation {
   void end_pair(DemChunk& chunk, std::size_t i, std::size_t p);
   double yield(std::size_t i, const Vec3& arm, const Vec3& n) const;
   void walls_of(DemChunk& chunk, std::size_t i, const StepTime& time);
-  void touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch, const StepTime& time);
+  void moving_walls_of(DemChunk& chunk, std::size_t i, const StepTime& time);
+  /// Contacts of rock i, placed and turned as seen from the walls, into `near`; false if there is nothing.
+  bool find_touches(DemChunk& chunk, std::size_t i, const WallsAndSurface& part, const RockPlace& place,
+                    RockWalls& near);
+  void touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch, const SurfaceMotion& moves,
+                  const StepTime& time);
   void note_overlap(DemChunk& chunk, std::size_t i, double ratio, const StepTime& time) const;
 
   void compact(const std::vector<int>& new_index, std::size_t kept);
@@ -198,6 +213,7 @@ struct DemSystem::Implementation {
   void exchange_rocks(StateArchive& archive);
   void exchange_tallies(StateArchive& archive);
   void exchange_walls(StateArchive& archive);
+  void exchange_touches(StateArchive& archive, std::vector<RockWalls>& near, std::size_t length);
 };
 
 }  // namespace sluice

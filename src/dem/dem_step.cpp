@@ -23,6 +23,7 @@ constexpr std::uint64_t lists_per_sort = 8;
 
 void DemSystem::Implementation::step(double t, double dt) {
   const StepTime time{t, dt, steps % steps_per_sample == 0};
+  for (MovingWalls& part : moving) part.move(t, dt);
   prepare_chunks(dt);
   drift(time);
   const bool moved_far =
@@ -63,6 +64,20 @@ void DemSystem::Implementation::give_half_to_walls(double dt) {
     for (std::size_t w = 0; w < chunk.rates.size(); ++w) {
       chunk.loads[w].impulse += 0.5 * dt * chunk.rates[w].impulse;
       chunk.loads[w].angular_impulse += 0.5 * dt * chunk.rates[w].angular_impulse;
+    }
+  if (!moving.empty()) take_half_of_work(dt);
+}
+
+void DemSystem::Implementation::take_half_of_work(double dt) {
+  for (const MovingWalls& part : moving)
+    for (std::size_t w = 0; w < walls.size(); ++w) {
+      if (part.walls.all()[w].mesh.triangles.empty()) continue;
+      for (DemChunk& chunk : chunks) {
+        if (chunk.rates.empty()) continue;
+        const Vec3 &force = chunk.rates[w].impulse, &moment = chunk.rates[w].angular_impulse;
+        const Vec3 about_centre = moment - part.twist.at.cross(force);
+        chunk.wall_work -= 0.5 * dt * (force.dot(part.twist.v) + about_centre.dot(part.twist.w));
+      }
     }
 }
 
@@ -157,6 +172,8 @@ void DemSystem::Implementation::contacts(const StepTime& time) {
                          }
                          if (has_walls)
                            for (std::size_t i = begin; i < end; ++i) walls_of(chunks[c], i, time);
+                         if (!moving.empty())
+                           for (std::size_t i = begin; i < end; ++i) moving_walls_of(chunks[c], i, time);
                        });
 }
 

@@ -8,23 +8,46 @@ constexpr double deepest_start = 0.25;  // of the smallest semi-axis
 }  // namespace
 
 void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const StepTime& time) {
-  const Body body = body_of(i);
   RockWalls& near = near_walls[i];
-  const double margin = wall_skin * body.radius;
-  if (!((body.x - near.at).squaredNorm() < margin * margin)) {
-    near.at = body.x;
-    walls.query().triangles_in(Box{body.x, body.x}.grown(body.radius + margin), near.triangles);
-    std::erase_if(near.triangles, [&](int t) { return surface.triangle(t).patch < 0; });
+  if (!find_touches(chunk, i, {still, surface}, {rocks.x[i], rocks.q[i]}, near)) return;
+  for (WallTouch& touch : near.touches) {
+    const Vec3 belt = still.surface_velocity(touch.wall, touch.point);
+    touch_wall(chunk, i, touch, {belt, belt, Vec3::Zero()}, time);
   }
-  if (near.triangles.empty() && near.touches.empty()) return;
+}
+
+void DemSystem::Implementation::moving_walls_of(DemChunk& chunk, std::size_t i, const StepTime& time) {
+  for (MovingWalls& part : moving) {
+    RockWalls& near = part.near[i];
+    const RockPlace place{part.now.to_rest(rocks.x[i]), part.now.q.conjugate() * rocks.q[i]};
+    if (!find_touches(chunk, i, {part.walls, part.surface}, place, near)) continue;
+    for (WallTouch& touch : near.touches) {
+      WallTouch in_space = part.to_space(touch);
+      touch_wall(chunk, i, in_space, part.surface_motion(touch.wall, in_space.point, time.dt), time);
+      part.keep_history(in_space, touch);
+    }
+  }
+}
+
+bool DemSystem::Implementation::find_touches(DemChunk& chunk, std::size_t i, const WallsAndSurface& part,
+                                             const RockPlace& place, RockWalls& near) {
+  const Body body = body_of(i);
+  const double margin = wall_skin * body.radius;
+  if (!((place.x - near.at).squaredNorm() < margin * margin)) {
+    near.at = place.x;
+    part.walls.query().triangles_in(Box{place.x, place.x}.grown(body.radius + margin), near.triangles);
+    std::erase_if(near.triangles, [&](int t) { return part.surface.triangle(t).patch < 0; });
+  }
+  if (near.triangles.empty() && near.touches.empty()) return false;
   if (is_sphere[static_cast<std::size_t>(body.shape)]) {
-    find_sphere_contacts(surface, near.triangles, body.x, body.radius, near.touches, chunk.scratch);
+    find_sphere_contacts(part.surface, near.triangles, place.x, body.radius, near.touches, chunk.scratch);
   } else {
-    const Superquadric shape = superquadric(i, body.x);
-    find_superquadric_contacts(surface, near.triangles, shape, body.radius,
+    Superquadric shape = superquadric(i, place.x);
+    shape.q = place.q;
+    find_superquadric_contacts(part.surface, near.triangles, shape, body.radius,
                                deepest_start * shape.semi_axes.minCoeff(), near.touches, chunk.scratch);
   }
-  if (chunk.scratch.found.empty() && near.touches.empty()) return;
+  if (chunk.scratch.found.empty() && near.touches.empty()) return false;
   carry_history(near.touches, chunk.scratch, [&](const WallTouch& old) {
     const int wall_material = walls.all()[static_cast<std::size_t>(old.wall)].material;
     const double k_t = config.tangential_ratio * limits.stiffness_per_size * body.size;
@@ -33,11 +56,11 @@ void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const S
     chunk.lost_friction += lost;
     chunk.loads[static_cast<std::size_t>(old.wall)].sliding_energy += lost;
   });
-  for (WallTouch& touch : near.touches) touch_wall(chunk, i, touch, time);
+  return true;
 }
 
 void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch,
-                                           const StepTime& time) {
+                                           const SurfaceMotion& moves, const StepTime& time) {
   const Body body = body_of(i);
   note_overlap(chunk, i, 2 * touch.overlap / body.size, time);
   const ContactLaw& pair_law = law(body.material, walls.all()[static_cast<std::size_t>(touch.wall)].material);
@@ -46,11 +69,9 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
   const Indentation at{touch.overlap, 0.5 * body.size, 1 / yield(i, arm, touch.normal)};
   const ContactConstants constants =
       contact_constants(pair_law, k_n, config.tangential_ratio, at.mass_effective, config.end_of_contact);
-  const Vec3 surface_velocity = walls.surface_velocity(touch.wall, touch.point);
-  const Vec3 velocity = body.v + body.w.cross(arm) - surface_velocity;
+  const Vec3 velocity = body.v + body.w.cross(arm) - moves.velocity;
   const ContactForce contact =
-      plain_laws ? contact_force(constants, touch.normal, touch.overlap, velocity, time.dt, touch.spring)
-                 : law_force(pair_law, constants, at, touch.normal, velocity, time.dt, touch.spring);
+      law_force(pair_law, constants, at, touch.normal, velocity, time.dt, touch.spring);
   Vec3 moment = Vec3::Zero();
   double lost_rolling = 0;
   if (has_rolling && pair_law.rolling > 0) {
@@ -58,14 +79,15 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
     const RollingConstants rolling =
         rolling_constants(pair_law.rolling, radius, normal_stiffness(pair_law, k_n, at),
                           1.4 * body.mass * radius * radius, contact.normal);
-    moment = rolling_torque(rolling, body.w, time.dt, touch.turned);
-    lost_rolling = -moment.dot(body.w) * time.dt;
+    const Vec3 spin = body.w - moves.spin;
+    moment = rolling_torque(rolling, spin, time.dt, touch.turned);
+    lost_rolling = -moment.dot(spin) * time.dt;
   }
   force[i] += contact.force;
   torque[i] += arm.cross(contact.force) + moment;
   chunk.lost_normal += contact.lost_normal;
   chunk.lost_friction += contact.lost_friction + lost_rolling;
-  chunk.wall_work += contact.force.dot(surface_velocity) * time.dt;
+  chunk.wall_work += contact.force.dot(moves.belt) * time.dt;
   chunk.elastic += contact.elastic;
 
   WallLoad& load = chunk.loads[static_cast<std::size_t>(touch.wall)];

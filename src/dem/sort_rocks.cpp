@@ -76,6 +76,7 @@ void DemSystem::Implementation::sort_in_space() {
   permute(fluid_force, order);
   permute(fluid_torque, order);
   permute(near_walls, order);
+  for (MovingWalls& part : moving) permute(part.near, order);
   permute(turned_shapes, order);
   permute(rim_speed, order);
 }
