@@ -27,6 +27,21 @@ void print_audit(const Walls& walls) {
           a.bounds.lo.z(), a.bounds.hi.x(), a.bounds.hi.y(), a.bounds.hi.z());
 }
 
+/// How fast the moving walls are, and how well the rocks' step follows them.
+void print_motions(const Simulation& simulation) {
+  constexpr double standard_gravity = 9.80665;  // [m/s2]
+  const double dt = simulation.time_step().dt_rock();
+  for (const Wall& wall : simulation.parts().walls->all()) {
+    if (!wall.motion) continue;
+    const MotionRange range = motion_range(*wall.motion, wall.mesh.vertices);
+    const double period = shortest_time(*wall.motion);
+    fmt::print("{} moves: at most {:.3g} m/s and {:.3g} g", wall.name, range.speed,
+               range.acceleration / standard_gravity);
+    if (dt > 0) fmt::print(", {:.3g} s a period or turn = {:.0f} steps", period, period / dt);
+    fmt::print("\n");
+  }
+}
+
 void print_steps(const Simulation& simulation) {
   const TimeStep& step = simulation.time_step();
   fmt::print("\nscene step {:.3e} s", step.dt);
@@ -62,6 +77,7 @@ int check_process(const CheckOptions& options) {
   print_parts(parts);
   if (!parts.walls->empty()) print_audit(*parts.walls);
   print_steps(simulation);
+  print_motions(simulation);
   print_estimate(estimate_run(source.config, simulation));
   for (const std::string& warning : warnings) fmt::print("warning: {}\n", warning);
   fmt::print("\n{}: no problem found\n", options.process.string());

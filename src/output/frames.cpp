@@ -140,6 +140,40 @@ void write_water(const fs::path& file, const WaterPoints& water) {
   write_vtp(file, data);
 }
 
+/// The walls that `shown` picks, where they are at `time` [s]; numbered as in the scene.
+template <class Shown>
+void write_wall_meshes(const fs::path& file, const std::vector<Wall>& walls, double time,
+                       const Shown& shown) {
+  vtkNew<vtkPolyData> data;
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkCellArray> triangles;
+  vtkNew<vtkIntArray> wall_index;
+  vtkNew<vtkStringArray> names;
+  wall_index->SetName("wall");
+  names->SetName("wall_names");
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    names->InsertNextValue(walls[w].name);
+    if (!shown(walls[w])) continue;
+    const vtkIdType first = points->GetNumberOfPoints();
+    const TriMesh mesh = mesh_at(walls[w], time);
+    for (const Vec3& x : mesh.vertices) points->InsertNextPoint(x.data());
+    for (const auto& t : mesh.triangles) {
+      const std::array<vtkIdType, 3> corner = {first + t[0], first + t[1], first + t[2]};
+      triangles->InsertNextCell(3, corner.data());
+      wall_index->InsertNextValue(static_cast<int>(w));
+    }
+  }
+  data->SetPoints(points);
+  data->SetPolys(triangles);
+  data->GetCellData()->AddArray(wall_index);
+  data->GetFieldData()->AddArray(names);
+  write_vtp(file, data);
+}
+
+bool moves(const Wall& wall) {
+  return wall.motion.has_value();
+}
+
 /// The text between `key="` and the next quotation mark, from `from` on; `from` moves behind it.
 std::optional<std::string> quoted_after(const std::string& text, const std::string& key, std::size_t& from) {
   const std::size_t at = text.find(key + "=\"", from);
@@ -174,28 +208,7 @@ FrameWriter::FrameWriter(fs::path folder, RockSurface surface, std::optional<dou
 }
 
 void FrameWriter::write_walls(const std::vector<Wall>& walls) {
-  vtkNew<vtkPolyData> data;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> triangles;
-  vtkNew<vtkIntArray> wall_index;
-  vtkNew<vtkStringArray> names;
-  wall_index->SetName("wall");
-  names->SetName("wall_names");
-  for (std::size_t w = 0; w < walls.size(); ++w) {
-    const vtkIdType first = points->GetNumberOfPoints();
-    names->InsertNextValue(walls[w].name);
-    for (const Vec3& x : walls[w].mesh.vertices) points->InsertNextPoint(x.data());
-    for (const auto& t : walls[w].mesh.triangles) {
-      const std::array<vtkIdType, 3> corner = {first + t[0], first + t[1], first + t[2]};
-      triangles->InsertNextCell(3, corner.data());
-      wall_index->InsertNextValue(static_cast<int>(w));
-    }
-  }
-  data->SetPoints(points);
-  data->SetPolys(triangles);
-  data->GetCellData()->AddArray(wall_index);
-  data->GetFieldData()->AddArray(names);
-  write_vtp(folder_ / "walls.vtp", data);
+  write_wall_meshes(folder_ / "walls.vtp", walls, 0, [](const Wall& wall) { return !moves(wall); });
 }
 
 void FrameWriter::write(const Snapshot& snapshot) {
@@ -211,6 +224,10 @@ void FrameWriter::write(const Snapshot& snapshot) {
   if (snapshot.water) {
     write_water(folder_ / name("water"), *snapshot.water);
     add("water", snapshot.time, name("water"));
+  }
+  if (snapshot.walls && std::any_of(snapshot.walls->begin(), snapshot.walls->end(), moves)) {
+    write_wall_meshes(folder_ / name("moving_walls"), *snapshot.walls, snapshot.time, moves);
+    add("moving_walls", snapshot.time, name("moving_walls"));
   }
   ++next_number_;
 }
@@ -237,7 +254,7 @@ void FrameWriter::write_collection(const std::string& series) const {
 
 void FrameWriter::read_collections(double resume_time) {
   const double limit = resume_time + 1e-12 * std::max(1.0, std::abs(resume_time));
-  for (const char* series : {"rocks", "rocks_surface", "water"}) {
+  for (const char* series : {"rocks", "rocks_surface", "water", "moving_walls"}) {
     const fs::path file = folder_ / (std::string(series) + ".pvd");
     std::error_code error;
     if (!fs::exists(file, error)) continue;

@@ -1,11 +1,13 @@
 #pragma once
-/// The `.vtp` time series that ParaView opens through frames/rocks.pvd, rocks_surface.pvd, water.pvd
-/// and the single file walls.vtp. Binary, LZ4, appended raw data.
+/// The `.vtp` time series that ParaView opens through frames/rocks.pvd, rocks_surface.pvd, water.pvd,
+/// moving_walls.pvd and the single file walls.vtp. Binary, LZ4, appended raw data.
 ///
 ///   rocks          points: id, size, mass, velocity, semi_axes, blockiness, quaternion (w x y z), wetted,
-///   shape rocks_surface  every rock's real shape as a coarse mesh; cells: id, size, speed, wetted water
-///   points: id, velocity, mass, fines_fraction, J, pressure walls          triangles; cells: wall (index),
-///   names as field data
+///                  shape
+///   rocks_surface  every rock's real shape as a coarse mesh; cells: id, size, speed, wetted
+///   water          points: id, velocity, mass, fines_fraction, J, pressure
+///   walls          those that stand: triangles; cells: wall (index), names as field data
+///   moving_walls   the same for those that move, where they are
 
 #include <filesystem>
 #include <map>
@@ -25,7 +27,7 @@ class FrameWriter {
   /// @throws EnvironmentError
   FrameWriter(std::filesystem::path folder, RockSurface surface, std::optional<double> resume_time);
 
-  /// Once a run. @throws EnvironmentError
+  /// Those that stand; once a run. @throws EnvironmentError
   void write_walls(const std::vector<Wall>& walls);
   /// The files of one moment, then the collections. @throws EnvironmentError
   void write(const Snapshot& snapshot);

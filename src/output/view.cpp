@@ -154,7 +154,7 @@ View make_view(const Snapshot& snapshot, std::vector<ViewMark> marks, std::size_
     for (const Wall& wall : *snapshot.walls) {
       ViewWall& w = view.walls.emplace_back();
       w.name = wall.name;
-      for (const Vec3& x : wall.mesh.vertices) push(w.vertices, x);
+      for (const Vec3& x : mesh_at(wall, snapshot.time).vertices) push(w.vertices, x);
       for (const auto& t : wall.mesh.triangles)
         for (const int index : t) w.triangles.push_back(static_cast<std::uint32_t>(index));
     }

@@ -7,6 +7,7 @@
 #include <limits>
 #include <set>
 
+#include "processes/check_motion.h"
 #include "processes/check_places.h"
 
 namespace sluice {
@@ -238,6 +239,9 @@ BuiltProcess Builder::build() {
   stop_if_bad();
 
   if (config_.rocks) collect([&] { make_rocks(sources); }, config_.rocks_at);
+  if (parts.rocks)
+    std::ranges::move(unresolved_motions(config_, parts.rocks->step_size()), std::back_inserter(problems_));
+  std::ranges::move(motion_warnings(config_, parts.walls->all()), std::back_inserter(built_.warnings));
   if (config_.water) collect([&] { make_water(); }, config_.water_at);
   stop_if_bad();
   target_ = {parts.rocks.get(),

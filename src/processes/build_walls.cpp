@@ -8,6 +8,7 @@
 #include "geometry/audit_mesh.h"
 #include "geometry/import_mesh.h"
 #include "processes/build_parts.h"
+#include "processes/check_motion.h"
 #include "processes/check_places.h"
 
 namespace sluice {
@@ -149,13 +150,15 @@ std::vector<Wall> build_walls(const ProcessConfig& config) {
         wall.material = material;
         wall.surface_velocity = entry.surface_velocity;
         wall.blocks = entry.blocks;
+        wall.motion = entry.motion;
         if (std::any_of(walls.begin(), walls.end(), [&](const Wall& w) { return w.name == wall.name; }))
           problems.push_back({entry.where, entry.name, "makes a second wall named '" + wall.name + "'",
                               "results name walls", "list the part once, or give the entry another name"});
         walls.push_back(std::move(wall));
       }
-      check_entry(entry, config.domain.domain().box, {walls.begin() + static_cast<long>(first), walls.end()},
-                  problems);
+      const std::span<const Wall> made = std::span<const Wall>(walls).subspan(first);
+      check_entry(entry, config.domain.domain().box, made, problems);
+      std::ranges::move(motion_problems(config, entry, made), std::back_inserter(problems));
     } catch (const InputError& e) {
       for (InputProblem p : e.problems()) {
         // The file says what is wrong with it; the key says where it was named.

@@ -107,8 +107,9 @@ void WallConfig::keys(Schema& s) {
   s.vector(
       "surface_velocity", surface_velocity,
       {.unit = "m/s",
-       .doc =
-           "the surface moves, the shape does not: a conveyor belt, or the transport of a vibrating deck"});
+       .doc = "the surface moves, the shape does not: a conveyor belt, or the transport of a vibrating deck; "
+              "with 'motion' it turns with the wall"});
+  s.section("motion", motion, {.doc = "how the wall itself moves; without it, it stands"});
   s.choice("blocks", blocks,
            {{"both", BlocksPhase::both},
             {"rocks_only", BlocksPhase::rocks_only},
@@ -119,6 +120,7 @@ void WallConfig::keys(Schema& s) {
   file_at = s.at("file");
   parts_at = s.at("parts");
   material_at = s.at("material");
+  motion_at = s.at("motion");
 }
 
 void OutputConfig::keys(Schema& s) {

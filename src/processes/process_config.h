@@ -63,7 +63,8 @@ struct WallConfig {
   Vec3 surface_velocity = Vec3::Zero();  ///< [m/s]
   BlocksPhase blocks = BlocksPhase::both;
   bool repair = false;
-  Location where, file_at, parts_at, material_at;
+  std::optional<WallMotion> motion;
+  Location where, file_at, parts_at, material_at, motion_at;
   void keys(Schema& s);
 };
 

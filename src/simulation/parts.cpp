@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 namespace sluice {
@@ -17,7 +18,11 @@ std::vector<std::string> Parts::present() const {
   if (rocks) words.push_back("rocks");
   if (water) words.push_back("water");
   if (coupling) words.push_back("coupling");
-  if (walls->size() > 0) words.push_back(counted(walls->size(), "wall"));
+  const auto& all = walls->all();
+  const auto moving = static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const Wall& wall) { return wall.motion.has_value(); }));
+  if (all.size() > moving) words.push_back(counted(all.size() - moving, "wall"));
+  if (moving > 0) words.push_back(counted(moving, "moving wall"));
   std::map<std::string, std::size_t> kinds;
   for (const auto& inflow : inflows) ++kinds[inflow->kind()];
   for (const auto& [kind, n] : kinds) words.push_back(counted(n, kind));

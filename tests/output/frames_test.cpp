@@ -167,5 +167,38 @@ TEST(Frames, SayThatTheyCannotBeWritten) {
                EnvironmentError);
 }
 
+TEST(Frames, ShowMovingWallsWhereTheyAreAndTheOthersOnce) {
+  const TemporaryFolder temporary;
+  std::vector<Wall> walls(2);
+  walls[0].name = "floor";
+  walls[0].mesh = make_box("floor", {Vec3(0, 0, 0), Vec3(1, 1, 1)});
+  walls[1].name = "drum";
+  walls[1].mesh = make_box("drum", {Vec3(0, 0, 0), Vec3(2, 1, 1)});
+  walls[1].motion.emplace();
+  walls[1].motion->kind = MotionKind::rotation;
+  walls[1].motion->axis = Vec3::UnitZ();
+  walls[1].motion->speed = 2;
+  FrameWriter frames(temporary.path, RockSurface::none, std::nullopt);
+  frames.write_walls(walls);
+  Snapshot s = two_rocks_and_water(0.7);
+  s.walls = &walls;
+  frames.write(s);
+  EXPECT_EQ(read_vtp(temporary.path / "walls.vtp")->GetNumberOfPolys(), 12);
+  const auto moving = read_vtp(temporary.path / "moving_walls_000000.vtp");
+  ASSERT_EQ(moving->GetNumberOfPolys(), 12);
+  EXPECT_EQ(moving->GetCellData()->GetArray("wall")->GetComponent(0, 0), 1);
+  for (vtkIdType i = 0; i < moving->GetNumberOfPoints(); ++i) {
+    const Vec3 x =
+        pose_at(*walls[1].motion, 0.7).to_space(walls[1].mesh.vertices[static_cast<std::size_t>(i)]);
+    EXPECT_LT((Vec3(moving->GetPoint(i)) - x).norm(), 1e-6);
+  }
+  // Resuming before a frame drops it; a scene without moving walls has no such series.
+  FrameWriter(temporary.path, RockSurface::none, 0.5);
+  EXPECT_FALSE(fs::exists(temporary.path / "moving_walls_000000.vtp"));
+  walls.pop_back();
+  FrameWriter(temporary.path, RockSurface::none, std::nullopt).write(s);
+  EXPECT_FALSE(fs::exists(temporary.path / "moving_walls.pvd"));
+}
+
 }  // namespace
 }  // namespace sluice

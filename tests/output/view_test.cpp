@@ -104,5 +104,19 @@ TEST(Base64, AgreesWithItsStandard) {
   EXPECT_FALSE(from_base64("ab!c"));
 }
 
+TEST(View, ShowsAMovingWallWhereItIs) {
+  std::vector<Wall> walls(1);
+  walls[0].mesh = make_box("plate", {Vec3(0, 0, 0), Vec3(1, 2, 3)});
+  walls[0].motion.emplace();
+  walls[0].motion->kind = MotionKind::keyframes;
+  walls[0].motion->keyframes = {{0, Vec3(0, 0, 0), Vec3(0, 0, 0)}, {1, Vec3(0, 0, 5), Vec3(0, 0, 0)}};
+  Snapshot s;
+  s.time = 1.5;
+  s.walls = &walls;
+  const View view = make_view(s);
+  for (std::size_t v = 0; v < walls[0].mesh.vertices.size(); ++v)
+    EXPECT_EQ(view.walls[0].vertices[3 * v + 2], static_cast<float>(walls[0].mesh.vertices[v].z() + 5));
+}
+
 }  // namespace
 }  // namespace sluice
