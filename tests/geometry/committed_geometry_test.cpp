@@ -57,6 +57,7 @@ std::map<std::string, PartAudit> audits_of(const std::string& file) {
 TEST(CommittedGeometry, IsWhatItsGeneratorsWrite) {
   expect_regenerated("feedbox_geometry", "feedbox", {"feedbox.obj", "outlets.csv"});
   expect_regenerated("transfer_chute_geometry", "transfer-chute", {"transfer-chute.obj"});
+  expect_regenerated("screen_deck_geometry", "screen-deck", {"screen-deck.obj"});
   expect_regenerated("container_geometry", "container", {"container.obj"});
 }
 
@@ -135,7 +136,8 @@ TEST(CommittedGeometry, OutletsLieInsideTheBoxAndLookIntoIt) {
 }
 
 TEST(CommittedGeometry, ChuteAndContainerAreSheets) {
-  for (const char* file : {"transfer-chute/transfer-chute.obj", "container/container.obj"})
+  for (const char* file :
+       {"transfer-chute/transfer-chute.obj", "screen-deck/screen-deck.obj", "container/container.obj"})
     for (const auto& [name, audit] : audits_of(file)) {
       EXPECT_FALSE(audit.closed) << name;
       EXPECT_EQ(audit.degenerate + audit.duplicates + audit.non_manifold_edges + audit.self_intersections, 0u)
