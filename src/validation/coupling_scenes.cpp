@@ -1,0 +1,35 @@
+#include "validation/coupling_scenes.h"
+
+#include <cmath>
+
+namespace sluice {
+
+ImmersedScene::ImmersedScene(const ImmersedSetup& setup, std::vector<Wall> walls)
+    : fluid(setup.water, std::move(walls)) {
+  DemScene scene;
+  scene.materials.all = {{"rock", setup.rock_density}};
+  scene.materials.pairs = {setup.pair};
+  scene.shapes = {make_sphere()};
+  scene.domain = setup.water.domain;
+  scene.gravity = setup.water.gravity;
+  scene.smallest_size = scene.largest_size = setup.rock_size;
+  scene.densest = setup.rock_density;
+  DemConfig config;
+  config.impact_speed = 1;
+  rocks = std::make_unique<DemSystem>(config, scene, fluid.walls);
+  coupling = std::make_unique<Coupling>(setup.coupling, setup.water.domain, setup.water.gravity, *rocks,
+                                        *fluid.water);
+}
+
+void ImmersedScene::step() {
+  const double dt = fluid.water->limits().step, from = fluid.t;
+  coupling->solids_to_grid();
+  fluid.step([&] { coupling->drag(dt); });
+  for (std::size_t i = 0; i < rocks->rocks().count(); ++i)
+    exchanged += dt * (coupling->drag_force()[i] + coupling->buoyancy_force()[i]).norm();
+  coupling->fluid_to_grid(dt);
+  const int n = static_cast<int>(std::ceil(dt / rocks->step_size()));
+  for (int k = 0; k < n; ++k) rocks->step(from + k * dt / n, dt / n);
+}
+
+}  // namespace sluice

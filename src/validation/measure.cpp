@@ -1,0 +1,67 @@
+#include "validation/measure.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace sluice {
+
+namespace {
+
+void need_column(const CsvTable& reference, const char* column) {
+  if (reference.find(column)) return;
+  throw InputError({{"reference table", 0, 0},
+                    column,
+                    "is not a column",
+                    fmt::format("it has {}", fmt::join(reference.columns, ", ")),
+                    "compare with the measure's header"});
+}
+
+}  // namespace
+
+const char* norm_words(ErrorNorm norm) {
+  switch (norm) {
+    case ErrorNorm::largest:
+      return "largest difference";
+    case ErrorNorm::rms:
+      return "root mean square difference";
+    case ErrorNorm::relative_l2:
+      return "relative L2 difference";
+  }
+  return "";
+}
+
+double error_of(const std::vector<Compared>& values, ErrorNorm norm) {
+  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
+  double most = 0, sum = 0, difference = 0, size = 0;
+  for (const Compared& v : values) {
+    const double off = std::abs(v.measured - v.reference) / v.scale;
+    if (!std::isfinite(off)) return std::numeric_limits<double>::quiet_NaN();
+    most = std::max(most, off);
+    sum += off * off;
+    difference += (v.measured - v.reference) * (v.measured - v.reference);
+    size += v.reference * v.reference;
+  }
+  switch (norm) {
+    case ErrorNorm::largest:
+      return most;
+    case ErrorNorm::rms:
+      return std::sqrt(sum / static_cast<double>(values.size()));
+    case ErrorNorm::relative_l2:
+      return std::sqrt(difference / size);
+  }
+  return most;
+}
+
+std::vector<double> reference_numbers(const CsvTable& reference, const char* column) {
+  need_column(reference, column);
+  return reference.numbers(column);
+}
+
+std::vector<std::string> reference_texts(const CsvTable& reference, const char* column) {
+  need_column(reference, column);
+  return reference.texts(column);
+}
+
+}  // namespace sluice

@@ -1,0 +1,18 @@
+#pragma once
+/// Depth of water behind and ahead of a dam that is gone at once, over cells in its depth.
+///
+/// Reference: columns `place` (x / (t sqrt(g h0)), from the dam), `depth` (over h0).
+
+#include "validation/measure.h"
+
+namespace sluice {
+
+struct WaterDamBreak : Measure {
+  double cells = 8;  ///< in the depth behind the dam
+  double time = 5;   ///< when it is looked at, over sqrt(h0 / g)
+
+  void keys(Schema& s) override;
+  Measured run(const CsvTable& reference) const override;
+};
+
+}  // namespace sluice
