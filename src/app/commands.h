@@ -35,4 +35,19 @@ struct ReportOptions {
 };
 int report_runs(const ReportOptions& options);
 
+/// Textbook cases of `validation/`, up their ladders.
+struct ValidateOptions {
+  std::vector<std::string> names;  ///< of cases; empty: all
+  std::filesystem::path cases = "validation";
+  std::filesystem::path out;  ///< empty: reports/ for everything, out/validation for a part
+  std::string rung;           ///< one rung of one case, by its setting
+  std::vector<std::string> scene_keys;
+  int threads = 0;  ///< 0: all
+  bool quick = false, list = false;
+};
+int validate_cases(const ValidateOptions& options);
+
+/// Exit code where a case of `sluice validate` misses its gate.
+inline constexpr int gate_failed = 5;
+
 }  // namespace sluice

@@ -1,5 +1,6 @@
-/// sluice: run | check | explain | report. What each does is in its own file; here are the command line and
-/// the exit codes: 0 done, 1 a bug, 2 bad input, 3 numerical failure, 4 environment, 130 interrupted.
+/// sluice: run | check | explain | report | validate. What each does is in its own file; here are the command
+/// line and the exit codes: 0 done, 1 a bug, 2 bad input, 3 numerical failure, 4 environment, 5 a validation
+/// case missed its gate, 130 interrupted.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -67,6 +68,20 @@ int main(int argc, char** argv) {
   report_command->add_option("runs", report.runs, "run folders")->required();
   report_command->add_option("--out", report.out, "comparison page [comparison.html]");
 
+  sluice::ValidateOptions validate;
+  CLI::App* validate_command =
+      app.add_subcommand("validate", "error against run time of the cases in validation/, and their gates");
+  validate_command->add_option("cases", validate.names, "names of cases [all]");
+  validate_command->add_flag("--quick", validate.quick, "first rungs only");
+  validate_command->add_flag("--list", validate.list, "one case a line; run nothing");
+  validate_command->add_option("--rung", validate.rung, "one rung of one case, by its setting");
+  validate_command->add_option("--set", validate.scene_keys,
+                               "key=value of the case's scene; may be repeated");
+  validate_command->add_option("--out", validate.out,
+                               "folder of the page [reports for all cases, else out/validation]");
+  validate_command->add_option("--cases", validate.cases, "folder of the cases [validation]");
+  validate_command->add_option("--threads", validate.threads, "threads [all]")->check(CLI::Range(1, 1024));
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& e) {
@@ -74,7 +89,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::RequiredError& e) {
     // CLI11 says only that a command is required, also where one was misspelt.
     if (argc > 1 && app.get_subcommands().empty())
-      std::fprintf(stderr, "'%s' is not a command (there are run, check, explain and report)\n", argv[1]);
+      std::fprintf(stderr, "'%s' is not a command (there are run, check, explain, report and validate)\n",
+                   argv[1]);
     app.exit(e);
     return 2;
   } catch (const CLI::ParseError& e) {
@@ -86,6 +102,7 @@ int main(int argc, char** argv) {
     if (run_command->parsed()) return sluice::run_process(run);
     if (check_command->parsed()) return sluice::check_process(check);
     if (explain_command->parsed()) return sluice::explain_keys(explain);
+    if (validate_command->parsed()) return sluice::validate_cases(validate);
     return sluice::report_runs(report);
   });
 }

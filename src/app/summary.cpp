@@ -15,14 +15,14 @@
 
 namespace sluice {
 
-namespace {
-
 std::string processor_name() {
   std::ifstream file("/proc/cpuinfo");
   for (std::string line; std::getline(file, line);)
     if (line.rfind("model name", 0) == 0) return line.substr(line.find(':') + 2);
   return "unknown";
 }
+
+namespace {
 
 std::int64_t peak_bytes() {
   rusage usage{};

@@ -29,6 +29,9 @@ RunManifest make_manifest(const RunState& run, Outcome outcome,
 void write_summary(const RunFolder& folder, const RunState& run, Outcome outcome,
                    const std::optional<RunManifest::Failure>& failure);
 
+/// Name of the processor; "unknown" where the system does not say.
+std::string processor_name();
+
 /// Exits and emitters as outlines.
 std::vector<ViewMark> view_marks(const ProcessConfig& config);
 
