@@ -41,10 +41,10 @@ void MovingWalls::move(double t, double dt) {
   twist = twist_between(before, now, dt);
 }
 
-SurfaceMotion MovingWalls::surface_motion(int wall, const Vec3& point, double dt) const {
+SurfaceMotion MovingWalls::surface_motion(const WallTouch& in_space, double dt) const {
   SurfaceMotion moves;
-  moves.belt = now.q * walls.surface_velocity(wall, point);
-  moves.velocity = velocity_between(before, now, point, dt) + moves.belt;
+  moves.belt = along_surface(now.q * walls.surface_velocity(in_space.wall, in_space.point), in_space.normal);
+  moves.velocity = velocity_between(before, now, in_space.point, dt) + moves.belt;
   moves.spin = twist.w;
   return moves;
 }

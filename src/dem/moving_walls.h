@@ -32,6 +32,12 @@ struct SurfaceMotion {
   Vec3 spin = Vec3::Zero();      ///< [rad/s]
 };
 
+/// What of a belt's velocity [m/s] a contact with normal n feels: a surface that moves along itself. Across
+/// itself the wall stands still, as on the edges of a belt or on the sides of a tray whose floor runs.
+inline Vec3 along_surface(const Vec3& velocity, const Vec3& n) {
+  return velocity - velocity.dot(n) * n;
+}
+
 struct MovingWalls {
   WallMotion motion;
   Walls walls;  ///< at rest; numbered as in the scene, those of other motions without triangles
@@ -42,8 +48,8 @@ struct MovingWalls {
 
   void place(double t);            ///< at rest for the time being
   void move(double t, double dt);  ///< from t to t + dt
-  /// @param point  of the contact [m]
-  SurfaceMotion surface_motion(int wall, const Vec3& point, double dt) const;
+  /// @param in_space  the contact, as to_space gives it
+  SurfaceMotion surface_motion(const WallTouch& in_space, double dt) const;
   WallTouch to_space(const WallTouch& touch) const;
   /// History of a contact that the law has changed in space.
   void keep_history(const WallTouch& in_space, WallTouch& touch) const;

@@ -11,7 +11,7 @@ void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const S
   RockWalls& near = near_walls[i];
   if (!find_touches(chunk, i, {still, surface}, {rocks.x[i], rocks.q[i]}, near)) return;
   for (WallTouch& touch : near.touches) {
-    const Vec3 belt = still.surface_velocity(touch.wall, touch.point);
+    const Vec3 belt = along_surface(still.surface_velocity(touch.wall, touch.point), touch.normal);
     touch_wall(chunk, i, touch, {belt, belt, Vec3::Zero()}, time);
   }
 }
@@ -23,7 +23,7 @@ void DemSystem::Implementation::moving_walls_of(DemChunk& chunk, std::size_t i, 
     if (!find_touches(chunk, i, {part.walls, part.surface}, place, near)) continue;
     for (WallTouch& touch : near.touches) {
       WallTouch in_space = part.to_space(touch);
-      touch_wall(chunk, i, in_space, part.surface_motion(touch.wall, in_space.point, time.dt), time);
+      touch_wall(chunk, i, in_space, part.surface_motion(in_space, time.dt), time);
       part.keep_history(in_space, touch);
     }
   }

@@ -64,7 +64,8 @@ Progress iterate(Frame& f, const Body<double, PowerA>& a, const Body<double, Pow
     const bool small_step =
         e.step2 < step * least * least && e.angle2 < close && e.miss2 < close * least * least;
     const bool flat = e.angle2 < kFlat * kFlat && e.miss2 < kFlat * kFlat * least * least;
-    if ((small_step || flat) && e.s > -tolerance.sigma * e.sigma) return Progress::done;
+    if ((small_step || flat) && e.s > -tolerance.sigma * e.sigma && newton::faces(f.pair, e))
+      return Progress::done;
     newton::advance(f.pair, e, f.x, f.y);
   }
   return Progress::failed;

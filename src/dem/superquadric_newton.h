@@ -175,6 +175,15 @@ Evaluation<Real> evaluate(const Pair<Real>& pair, const Body<Real, PowerA>& a, c
   return e;
 }
 
+/// Whether the normal points from the first centre towards the second. Turning a normal round changes the gap
+/// by twice n.d where both bodies are symmetric about their centres: the largest gap has n.d >= 0. Flat faces
+/// on the far sides satisfy every other condition, for they have no curvature that could tell a maximum from
+/// a minimum.
+template <class Real>
+auto faces(const Pair<Real>& pair, const Evaluation<Real>& e) {
+  return dot(e.n, pair.d) >= -1e-12 * pair.least;
+}
+
 /// Takes the step, capped at 0.3 of the least semi-axis.
 template <class Real>
 void advance(const Pair<Real>& pair, const Evaluation<Real>& e, Triple<Real>& x, Triple<Real>& y) {

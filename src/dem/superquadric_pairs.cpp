@@ -141,7 +141,7 @@ Solved iterate(Gathered& g) {
     const LaneMask small_step = (e.step2 < kStep * kStep * least2) & (e.angle2 < kResidual * kResidual) &
                                 (e.miss2 < kResidual * kResidual * least2);
     const LaneMask flat = (e.angle2 < kFlat * kFlat) & (e.miss2 < kFlat * kFlat * least2);
-    const LaneMask now = (small_step | flat) & (e.s > -e.sigma) & ~solved.done;
+    const LaneMask now = (small_step | flat) & (e.s > -e.sigma) & newton::faces(g.pair, e) & ~solved.done;
     // The last step is taken in any case, to first order where it ends the iteration.
     newton::advance(g.pair, e, x, y);
     if (!any(now)) continue;

@@ -333,7 +333,8 @@ TEST(SurfaceMotion, SumsUpToTheWayOfTheMaterialPoint) {
     Vec3 way = Vec3::Zero();
     for (int k = 0; k < 13; ++k) {
       part.move(k * dt, dt);
-      way += dt * part.surface_motion(0, part.now.to_space(rest), dt).velocity;
+      way += dt * part.surface_motion(part.to_space({.wall = 0, .normal = Vec3::UnitZ(), .point = rest}), dt)
+                      .velocity;
     }
     EXPECT_LT((part.now.to_space(rest) - pose_at(motion, 0).to_space(rest) - way).norm(), 1e-15);
   }
