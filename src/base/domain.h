@@ -32,7 +32,8 @@ struct Domain {
   /// Position brought back through the periodic faces into [lo, hi).
   Vec3 wrapped(Vec3 x) const {
     for (int k = 0; k < 3; ++k) {
-      if (!periodic(k)) continue;
+      // Nearly always inside: the division is left out.
+      if (!periodic(k) || (x[k] >= box.lo[k] && x[k] < box.hi[k])) continue;
       const double length = box.hi[k] - box.lo[k];
       x[k] -= length * std::floor((x[k] - box.lo[k]) / length);
       if (x[k] >= box.hi[k]) x[k] = box.lo[k];
@@ -44,7 +45,7 @@ struct Domain {
     for (int k = 0; k < 3; ++k) {
       if (!periodic(k)) continue;
       const double length = box.hi[k] - box.lo[k];
-      d[k] -= length * std::nearbyint(d[k] / length);
+      if (std::abs(d[k]) > 0.5 * length) d[k] -= length * std::nearbyint(d[k] / length);
     }
     return d;
   }
