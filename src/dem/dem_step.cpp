@@ -92,7 +92,6 @@ void DemSystem::Implementation::kick(std::size_t i, double seconds) {
     rocks.w[i] += seconds * moment / inertia(i).x();
   } else {
     angular[i] += seconds * moment;
-    rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
   }
 }
 
@@ -186,6 +185,7 @@ void DemSystem::Implementation::finish(const StepTime& time) {
     }
     for (std::size_t i = begin; i < end; ++i) {
       kick(i, 0.5 * time.dt);
+      if (!only_spheres) rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
       if (!std::isfinite(rocks.v[i].sum()) || !std::isfinite(rocks.w[i].sum()))
         throw NumericalError("rocks.substeps", time.t,
                              fmt::format("rock {} has a velocity that is no number", rocks.id[i]),

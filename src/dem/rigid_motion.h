@@ -30,11 +30,14 @@ inline void rotate_freely(Quat& q, const Vec3& l, const Vec3& per_inertia, doubl
     const double quarter = 0.25 * seconds * body[axis] * per_inertia[axis];
     const double scale = 1 / (1 + quarter * quarter);
     const double c = (1 - quarter * quarter) * scale, s = 2 * quarter * scale;
-    Quat about(c, 0, 0, 0);
-    about.vec()[axis] = s;
-    q = q * about;
-    // The momentum seen from the body turns the other way.
     const int j = (axis + 1) % 3, k = (axis + 2) % 3;
+    auto& v = q.coeffs();  // x, y, z, w
+    const double v_a = v[axis], v_j = v[j], v_k = v[k], w = v[3];
+    v[axis] = c * v_a + s * w;
+    v[j] = c * v_j + s * v_k;
+    v[k] = c * v_k - s * v_j;
+    v[3] = c * w - s * v_a;
+    // The momentum seen from the body turns the other way.
     const double cos2 = c * c - s * s, sin2 = 2 * c * s;
     const double along_j = body[j], along_k = body[k];
     body[j] = cos2 * along_j + sin2 * along_k;

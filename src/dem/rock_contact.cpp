@@ -69,6 +69,8 @@ void DemSystem::Implementation::find_candidates(DemChunk& chunk, PairScratch& sc
         *next = candidate;
         next += meet;
       } else if (meet) {
+        __builtin_prefetch(&pairs.memory[p]);
+        __builtin_prefetch(&pairs.memory[p].normal.z());
         scratch.shaped.push_back(candidate);
         scratch.shaped_pairs.push_back({separation, candidate.i, candidate.j, candidate.pair});
       } else {
