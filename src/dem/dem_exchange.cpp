@@ -114,11 +114,11 @@ void DemSystem::Implementation::exchange_walls(StateArchive& archive) {
 
 void DemSystem::Implementation::exchange_touches(StateArchive& archive, std::vector<RockWalls>& near,
                                                  std::size_t length) {
-  std::vector<std::array<int, 5>> labels;  // rock, patch, wall, feature, side
+  std::vector<std::array<int, 6>> labels;  // rock, patch, wall, feature, side, copy
   std::vector<std::array<double, 16>> values;
   for (std::size_t i = 0; i < near.size(); ++i)
     for (const WallTouch& touch : near[i].touches) {
-      labels.push_back({static_cast<int>(i), touch.patch, touch.wall, touch.feature, touch.side});
+      labels.push_back({static_cast<int>(i), touch.patch, touch.wall, touch.feature, touch.side, touch.copy});
       std::array<double, 16> row{};
       put(row, 0, touch.normal);
       put(row, 3, touch.spring);
@@ -134,11 +134,11 @@ void DemSystem::Implementation::exchange_touches(StateArchive& archive, std::vec
   // Which triangles are near is looked up again: contacts do not depend on what else is on the list.
   near.assign(length, {});
   for (std::size_t k = 0; k < labels.size(); ++k) {
-    const auto& [rock, patch, wall, feature, side] = labels[k];
+    const auto& [rock, patch, wall, feature, side, copy] = labels[k];
     const auto& row = values[k];
     near[static_cast<std::size_t>(rock)].touches.push_back({patch, wall, feature, side, take(row, 0),
                                                             take(row, 12), row[15], take(row, 3),
-                                                            take(row, 6), take(row, 9)});
+                                                            take(row, 6), take(row, 9), copy});
   }
 }
 
@@ -163,7 +163,8 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
            bytes_of(room_reach) + bytes_of(near_walls);
   for (const PairScratch& scratch : pair_scratch)
     bytes += bytes_of(scratch.push) + bytes_of(scratch.spheres) + bytes_of(scratch.shaped) +
-             bytes_of(scratch.shaped_pairs) + bytes_of(scratch.geometry) + bytes_of(scratch.outcome);
+             bytes_of(scratch.shaped_pairs) + bytes_of(scratch.geometry) + bytes_of(scratch.outcome) +
+             bytes_of(scratch.repeated);
   const auto add_near = [&](const std::vector<RockWalls>& all) {
     for (const RockWalls& near : all) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
   };
@@ -174,7 +175,7 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
   }
   for (const DemChunk& chunk : chunks)
     bytes += sizeof(chunk) + bytes_of(chunk.loads) + bytes_of(chunk.overlaps) + bytes_of(chunk.scratch.hits) +
-             bytes_of(chunk.scratch.found);
+             bytes_of(chunk.scratch.found) + bytes_of(chunk.scratch.of_copies);
   return bytes;
 }
 

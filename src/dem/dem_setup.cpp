@@ -127,6 +127,7 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
   for (const RockShape& shape : scene.shapes) {
     is_sphere.push_back(shape.is_sphere() ? 1 : 0);
     only_spheres = only_spheres && shape.is_sphere();
+    has_blocky = has_blocky || has_faces(shape.blockiness);
   }
   has_walls = surface.patch_count() > 0;
   periodic = scene.domain.any_periodic();

@@ -13,6 +13,7 @@
 #include <memory>
 
 #include "dem/dem_system.h"
+#include "dem/faces.h"
 #include "dem/hertz_mindlin.h"
 #include "dem/moving_walls.h"
 #include "dem/pair_list.h"
@@ -58,6 +59,7 @@ struct PairScratch {
   std::vector<BodyPair> shaped_pairs;     ///< the same
   std::vector<ContactGeometry> geometry;  ///< of those
   std::vector<PairOutcome> outcome;
+  std::vector<std::uint8_t> repeated;  ///< where a copy of the same pair is deeper; empty without faces
 };
 
 /// Tallies and scratch of one chunk of rocks.
@@ -119,6 +121,8 @@ struct DemSystem::Implementation {
   std::vector<ContactLaw> laws;         ///< by pair of materials
   std::vector<std::uint8_t> is_sphere;  ///< by shape
   bool only_spheres = true, has_rolling = false, has_walls = false, periodic = false;
+  bool has_blocky = false;  ///< some shape has faces
+  std::array<Quat, face_copies> turns = face_turns();
   bool plain_laws = true;  ///< every pair is linear, without adhesion
 
   Rocks rocks;
@@ -141,10 +145,11 @@ struct DemSystem::Implementation {
   mutable std::vector<WallLoad> load_sums;
 
   // rebuilt each step
-  std::vector<TurnedShape> turned_shapes;  ///< empty where all are spheres
-  std::vector<double> rim_speed;           ///< fastest that turning moves a point [m/s]; empty likewise
-  std::vector<Push> reactions;             ///< by slot of the pair list
-  std::vector<PairScratch> pair_scratch;   ///< by thread
+  /// One a rock, then face_copies a rock where some are blocky; empty where all are spheres.
+  std::vector<TurnedShape> turned_shapes;
+  std::vector<double> rim_speed;          ///< fastest that turning moves a point [m/s]; empty likewise
+  std::vector<Push> reactions;            ///< by slot of the pair list
+  std::vector<PairScratch> pair_scratch;  ///< by thread
 
   // for has_room
   CellGrid room;
@@ -169,6 +174,13 @@ struct DemSystem::Implementation {
     return {x, rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
   }
   bool has_sphere_shape(int shape) const { return is_sphere[static_cast<std::size_t>(shape)] != 0; }
+  bool is_blocky(std::size_t i) const { return has_blocky && has_faces(shape_of(i).blockiness); }
+  bool meet_as_copies(std::size_t i, std::size_t j) const { return is_blocky(i) && is_blocky(j); }
+  /// Of two blocky rocks: whether the first is the one copied.
+  bool is_copied(std::size_t i, std::size_t j) const {
+    return rocks.size[i] != rocks.size[j] ? rocks.size[i] < rocks.size[j] : rocks.id[i] < rocks.id[j];
+  }
+  std::size_t copy_of(std::size_t i, std::size_t copy) const { return count() + face_copies * i + copy; }
 
   void step(double t, double dt);
   void prepare_chunks(double dt);
@@ -178,6 +190,7 @@ struct DemSystem::Implementation {
             rocks.w[i], rocks.size[i],   rocks.material[i], rocks.shape[i]};
   }
   void list_pairs(double dt);
+  void turn_copies();
   void sort_in_space();
   void contacts(const StepTime& time);
   void finish(const StepTime& time);
@@ -188,11 +201,14 @@ struct DemSystem::Implementation {
   void find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t end, double dt);
   bool keeps_clear(std::size_t p, std::size_t i, std::size_t j, double dt);
   void pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t end, const StepTime& time);
+  BodyPair bodies_of(const Candidate& candidate) const;
   void solve_shaped(DemChunk& chunk, PairScratch& scratch);
+  void find_repeated(PairScratch& scratch) const;
   Touch spheres_touch(const Candidate& candidate) const;
   Touch superquadrics_touch(const Candidate& candidate, const ContactGeometry& geometry) const;
   void touch_pair(DemChunk& chunk, PairScratch& scratch, const Candidate& candidate, const Touch& touch,
                   const StepTime& time);
+  double share_of(std::size_t i, std::size_t j) const { return meet_as_copies(i, j) ? face_share : 1; }
   struct LaneContacts;
   void touch_in_lanes(DemChunk& chunk, PairScratch& scratch, const StepTime& time);
   void end_pair(DemChunk& chunk, std::size_t i, std::size_t p);
@@ -202,9 +218,15 @@ struct DemSystem::Implementation {
   /// Contacts of rock i, placed and turned as seen from the walls, into `near`; false if there is nothing.
   bool find_touches(DemChunk& chunk, std::size_t i, const WallsAndSurface& part, const RockPlace& place,
                     RockWalls& near);
+  void find_superquadric(DemChunk& chunk, std::size_t i, const WallsAndSurface& part, const RockPlace& place,
+                         const RockWalls& near);
   void touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch, const SurfaceMotion& moves,
                   const StepTime& time);
-  void note_overlap(DemChunk& chunk, std::size_t i, double ratio, const StepTime& time) const;
+  void count_touches(DemChunk& chunk, std::size_t i, const RockWalls& near, const StepTime& time) const;
+  /// Stops the run where an overlap [of the radius] is beyond the limit.
+  void check_overlap(DemChunk& chunk, std::size_t i, double ratio, const StepTime& time) const;
+  /// A contact counts once, with the deepest of its copies.
+  void count_contact(DemChunk& chunk, double ratio, const StepTime& time) const;
 
   void compact(const std::vector<int>& new_index, std::size_t kept);
   bool has_room(const Vec3& x, double radius, bool check_walls);

@@ -29,6 +29,7 @@ void DemSystem::Implementation::step(double t, double dt) {
   const bool moved_far =
       std::any_of(chunks.begin(), chunks.end(), [](const DemChunk& chunk) { return chunk.moved_far; });
   if (!list_valid || moved_far) list_pairs(dt);
+  if (has_blocky) turn_copies();
   contacts(time);
   finish(time);
   give_half_to_walls(dt);
@@ -99,7 +100,7 @@ void DemSystem::Implementation::drift(const StepTime& time) {
   // Free rotation changes the angular velocity within a step, by far less than this.
   constexpr double rotation_margin = 1.05;
   if (!only_spheres) {
-    turned_shapes.resize(count());
+    if (turned_shapes.size() < count()) turned_shapes.resize(count());
     rim_speed.resize(count());
   }
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
@@ -150,10 +151,24 @@ void DemSystem::Implementation::list_pairs(double dt) {
         std::clamp(steps_per_list * dt * rocks.v[i].norm(), least_margin * radius, most_margin * radius);
     reach[i] = radius + margin[i];
   });
-  pairs.rebuild(rocks.x, reach, scene.domain);
+  std::vector<std::uint8_t> blocky(has_blocky ? count() : 0);
+  for (std::size_t i = 0; i < blocky.size(); ++i) blocky[i] = is_blocky(i) ? 1 : 0;
+  pairs.rebuild(rocks.x, reach, scene.domain, blocky);
   listed_at = rocks.x;
   list_valid = true;
   room_valid = false;  // its grid allows for the margins only
+}
+
+/// Behind the rocks' shapes; after the rocks have been listed, which may sort them.
+void DemSystem::Implementation::turn_copies() {
+  turned_shapes.resize((1 + face_copies) * count());
+  parallel_for(count(), [&](std::size_t i) {
+    if (!is_blocky(i)) return;
+    for (std::size_t c = 0; c < face_copies; ++c) {
+      turned_shapes[copy_of(i, c)] = turned_shapes[i];
+      turned_shapes[copy_of(i, c)].q = turned_shapes[i].q * turns[c];
+    }
+  });
 }
 
 void DemSystem::Implementation::contacts(const StepTime& time) {

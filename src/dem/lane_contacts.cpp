@@ -157,16 +157,26 @@ struct DemSystem::Implementation::LaneContacts {
     return touch;
   }
 
-  void note_overlaps(const Group& g, const LaneTouch& touch, const Lanes& size_a, const Lanes& size_b) {
+  void note_overlaps(const Group& g, const LaneTouch& touch, const Lanes& size_a, const Lanes& size_b,
+                     std::span<const std::uint8_t> repeated) {
     const Lanes ratio = 2.0 * touch.overlap / lanes::smaller(size_a, size_b);
     const LaneMask within = ratio <= s.config.overlap_limit;
-    if (any(~within) || time.sampled) {
-      for (std::size_t k = 0; k < g.count; ++k)
-        s.note_overlap(chunk, size_a[k] <= size_b[k] ? g.i[k] : g.j[k], ratio[k], time);
+    if (any(~within) || time.sampled || !repeated.empty()) {
+      for (std::size_t k = 0; k < g.count; ++k) {
+        s.check_overlap(chunk, size_a[k] <= size_b[k] ? g.i[k] : g.j[k], ratio[k], time);
+        if (repeated.empty() || repeated[k] == 0) s.count_contact(chunk, ratio[k], time);
+      }
       return;
     }
     tallies.overlap_most = lanes::larger(tallies.overlap_most, ratio);
     chunk.contacts += g.count;
+  }
+
+  /// What each lane's contact is of a whole one.
+  Lanes share_of(const Group& g) const {
+    Lanes share;
+    for (std::size_t k = 0; k < kLanes; ++k) share[k] = s.share_of(g.i[k], g.j[k]);
+    return share;
   }
 
   void give(const Group& g, std::size_t first, std::span<const Candidate> candidates, const LaneTriple& force,
@@ -190,7 +200,10 @@ struct DemSystem::Implementation::LaneContacts {
       const Lanes mass_a = load_each(s.rocks.mass, g.i), mass_b = load_each(s.rocks.mass, g.j);
       const Lanes size_a = load_each(s.rocks.size, g.i), size_b = load_each(s.rocks.size, g.j);
       const LaneTouch touch = are_shaped ? shaped(g, first, mass_a, mass_b) : spheres(g, mass_a, mass_b);
-      note_overlaps(g, touch, size_a, size_b);
+      const bool copies = are_shaped && s.has_blocky;
+      note_overlaps(g, touch, size_a, size_b,
+                    copies ? std::span<const std::uint8_t>(scratch.repeated).subspan(first, g.count)
+                           : std::span<const std::uint8_t>());
 
       // The law of the contact.
       const LaneLaw law = law_of(g);
@@ -206,7 +219,7 @@ struct DemSystem::Implementation::LaneContacts {
                                   cross(w_a, touch.arm_a) - cross(w_b, touch.arm_b);
       LinearContact<Lanes> contact{touch.normal, touch.overlap, velocity,
                                    load_triples(s.pairs.spring, g.pair)};
-      const LinearForce<Lanes> f = linear_contact(constants, time.dt, contact);
+      LinearForce<Lanes> f = linear_contact(constants, time.dt, contact);
       lanes::store_triples(contact.spring, s.pairs.spring, g.pair, g.count);
 
       LaneTriple torque_a = cross(touch.arm_a, f.force), torque_b = cross(f.force, touch.arm_b);
@@ -225,6 +238,15 @@ struct DemSystem::Implementation::LaneContacts {
         torque_a = torque_a + moment;
         torque_b = torque_b - moment;
         lost_friction -= dot(moment, spin) * time.dt;
+      }
+      if (copies) {
+        const Lanes share = share_of(g);
+        f.force = share * f.force;
+        torque_a = share * torque_a;
+        torque_b = share * torque_b;
+        f.lost_normal *= share;
+        lost_friction *= share;
+        f.elastic *= share;
       }
       give(g, first, candidates, f.force, torque_a, torque_b);
       tallies.lost_normal += select(g.real, f.lost_normal, Lanes{});

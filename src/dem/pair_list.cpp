@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "dem/faces.h"
 
 namespace sluice {
 
@@ -29,7 +30,8 @@ void PairList::copy_memory(const PairList& from, std::size_t old_pair, std::size
   clear[new_pair] = from.clear[old_pair];
 }
 
-void PairList::find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain) {
+void PairList::find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain,
+                    std::span<const std::uint8_t> blocky) {
   const std::size_t n = x.size();
   grid.build(x, reach, domain);
   found_.resize(std::max(found_.size(), (n + chunk_length - 1) / chunk_length));
@@ -44,7 +46,9 @@ void PairList::find(std::span<const Vec3> x, std::span<const double> reach, cons
         if (periodic) d = domain.nearest_image(d);
         const double far = reach[i] + reach[j];
         if (d.squaredNorm() >= far * far) return;
-        found_[c].push_back({static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))});
+        const std::size_t copies = !blocky.empty() && blocky[i] != 0 && blocky[j] != 0 ? face_copies : 1;
+        found_[c].insert(found_[c].end(), copies,
+                         {static_cast<int>(std::min(i, j)), static_cast<int>(std::max(i, j))});
       });
     }
   });
@@ -83,7 +87,8 @@ void PairList::give_slots() {
   in_start.pop_back();
 }
 
-void PairList::rebuild(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain) {
+void PairList::rebuild(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain,
+                       std::span<const std::uint8_t> blocky) {
   PairList old(contents_);
   old.start.swap(start);
   old.second.swap(second);
@@ -92,13 +97,13 @@ void PairList::rebuild(std::span<const Vec3> x, std::span<const double> reach, c
   old.turned.swap(turned);
   old.memory.swap(memory);
   old.clear.swap(clear);
-  find(x, reach, domain);
+  find(x, reach, domain, blocky);
   resize_memories(second.size());
   parallel_for(std::min(old.rock_count(), x.size()), [&](std::size_t i) {
     std::size_t o = old.start[i];
     for (std::size_t p = start[i]; p < start[i + 1]; ++p) {
       while (o < old.start[i + 1] && old.second[o] < second[p]) ++o;
-      if (o < old.start[i + 1] && old.second[o] == second[p]) copy_memory(old, o, p);
+      if (o < old.start[i + 1] && old.second[o] == second[p]) copy_memory(old, o++, p);
     }
   });
   give_slots();
@@ -156,7 +161,9 @@ void PairList::reorder(std::span<const int> new_index) {
     }
   parallel_for(n, [&](std::size_t i) {
     std::sort(entries.begin() + new_start[i], entries.begin() + new_start[i + 1],
-              [](const Entry& a, const Entry& b) { return a.second < b.second; });
+              [](const Entry& a, const Entry& b) {
+                return a.second != b.second ? a.second < b.second : a.old_pair < b.old_pair;
+              });
   });
   PairList old(contents_);
   old.touching.swap(touching);

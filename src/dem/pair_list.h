@@ -3,6 +3,9 @@
 /// remembers. Rows by the lower index i, each sorted by the higher index j: the order depends on
 /// nothing but the rocks, so sums over it are the same for any number of threads.
 ///
+/// Two blocky rocks are listed face_copies times in a row (faces.h), one entry for each copy of one of them;
+/// the order of the copies stays.
+///
 /// Rocks are cut into chunks of `rocks_per_chunk`. A chunk adds the forces of its pairs to its own rocks
 /// at once; the reaction on a rock of another chunk waits in a slot that no other pair writes:
 ///
@@ -41,7 +44,9 @@ class PairList {
   explicit PairList(PairContents contents) : contents_(contents) { start.assign(1, 0); }
 
   /// Finds all pairs closer than the sum of their reaches [m]; what old pairs remember is kept.
-  void rebuild(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain);
+  /// @param blocky  1 for rocks with faces; empty where there are none
+  void rebuild(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain,
+               std::span<const std::uint8_t> blocky = {});
   /// Drops rocks with new_index -1 and renumbers the others (order kept).
   void renumber(std::span<const int> new_index, std::size_t new_count);
   /// Renumbers all rocks in any order; a pair whose rocks change places sees what it remembers from the
@@ -68,7 +73,8 @@ class PairList {
   bool crosses(std::size_t i, std::size_t j) const { return i / rocks_per_chunk != j / rocks_per_chunk; }
 
  private:
-  void find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain);
+  void find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain,
+            std::span<const std::uint8_t> blocky);
   void give_slots();
   void resize_memories(std::size_t pairs);
   void copy_memory(const PairList& from, std::size_t old_pair, std::size_t new_pair);

@@ -1,12 +1,14 @@
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "base/errors.h"
 #include "dem/dem_state.h"
 
 namespace sluice {
 
-void DemSystem::Implementation::note_overlap(DemChunk& chunk, std::size_t i, double ratio,
-                                             const StepTime& time) const {
+void DemSystem::Implementation::check_overlap(DemChunk& chunk, std::size_t i, double ratio,
+                                              const StepTime& time) const {
   if (!(ratio <= config.overlap_limit))
     throw NumericalError(
         "rocks.substeps", time.t,
@@ -14,6 +16,9 @@ void DemSystem::Implementation::note_overlap(DemChunk& chunk, std::size_t i, dou
         plain_laws ? "raise 'impact_speed' or 'stiffness_per_size', or lower 'network_fraction'"
                    : "raise 'impact_speed', 'youngs_modulus' or 'stiffness_per_size', or lower 'adhesion'");
   chunk.overlap_most = std::max(chunk.overlap_most, ratio);
+}
+
+void DemSystem::Implementation::count_contact(DemChunk& chunk, double ratio, const StepTime& time) const {
   ++chunk.contacts;
   if (time.sampled) chunk.overlaps.push_back(ratio);
 }
@@ -72,13 +77,27 @@ void DemSystem::Implementation::find_candidates(DemChunk& chunk, PairScratch& sc
         __builtin_prefetch(&pairs.memory[p]);
         __builtin_prefetch(&pairs.memory[p].normal.z());
         scratch.shaped.push_back(candidate);
-        scratch.shaped_pairs.push_back({separation, candidate.i, candidate.j, candidate.pair});
+        scratch.shaped_pairs.push_back(bodies_of(candidate));
       } else {
         pairs.clear[p] = std::sqrt(distance2) - reach;
       }
     }
   }
   scratch.spheres.resize(static_cast<std::size_t>(next - scratch.spheres.data()));
+}
+
+/// The bodies that stand for a pair's entry: the rocks, or a copy of one of them.
+BodyPair DemSystem::Implementation::bodies_of(const Candidate& candidate) const {
+  BodyPair pair{candidate.separation, candidate.i, candidate.j, candidate.pair};
+  if (!meet_as_copies(candidate.i, candidate.j)) return pair;
+  const std::uint32_t row = pairs.start[candidate.i];
+  const auto first =
+      std::lower_bound(pairs.second.begin() + row, pairs.second.begin() + pairs.start[candidate.i + 1],
+                       static_cast<int>(candidate.j));
+  const std::size_t copy = candidate.pair - static_cast<std::size_t>(first - pairs.second.begin());
+  std::uint32_t& copied = is_copied(candidate.i, candidate.j) ? pair.a : pair.b;
+  copied = static_cast<std::uint32_t>(copy_of(copied, copy));
+  return pair;
 }
 
 /// Keeps of the pairs of superquadrics those that touch.
@@ -100,6 +119,21 @@ void DemSystem::Implementation::solve_shaped(DemChunk& chunk, PairScratch& scrat
     scratch.geometry[kept++] = geometry;
   }
   scratch.shaped.resize(kept);
+  if (has_blocky) find_repeated(scratch);
+}
+
+/// Marks all touching copies of a pair but the deepest.
+void DemSystem::Implementation::find_repeated(PairScratch& scratch) const {
+  const std::vector<Candidate>& touching = scratch.shaped;
+  scratch.repeated.assign(touching.size(), 1);
+  for (std::size_t k = 0; k < touching.size();) {
+    std::size_t deepest = k, next = k + 1;
+    for (; next < touching.size() && touching[next].i == touching[k].i && touching[next].j == touching[k].j;
+         ++next)
+      if (scratch.geometry[next].overlap > scratch.geometry[deepest].overlap) deepest = next;
+    scratch.repeated[deepest] = 0;
+    k = next;
+  }
 }
 
 void DemSystem::Implementation::pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c,
@@ -107,11 +141,21 @@ void DemSystem::Implementation::pairs_of(DemChunk& chunk, PairScratch& scratch, 
   find_candidates(chunk, scratch, c, end, time.dt);
   if (!scratch.shaped.empty()) solve_shaped(chunk, scratch);
   if (plain_laws) return touch_in_lanes(chunk, scratch, time);
-  for (const Candidate& candidate : scratch.spheres)
-    touch_pair(chunk, scratch, candidate, spheres_touch(candidate), time);
-  for (std::size_t k = 0; k < scratch.shaped.size(); ++k)
-    touch_pair(chunk, scratch, scratch.shaped[k], superquadrics_touch(scratch.shaped[k], scratch.geometry[k]),
-               time);
+  const auto ratio = [&](const Candidate& candidate, double overlap) {
+    return 2 * overlap / std::min(rocks.size[candidate.i], rocks.size[candidate.j]);
+  };
+  for (const Candidate& candidate : scratch.spheres) {
+    const Touch touch = spheres_touch(candidate);
+    touch_pair(chunk, scratch, candidate, touch, time);
+    count_contact(chunk, ratio(candidate, touch.overlap), time);
+  }
+  for (std::size_t k = 0; k < scratch.shaped.size(); ++k) {
+    const Candidate& candidate = scratch.shaped[k];
+    const Touch touch = superquadrics_touch(candidate, scratch.geometry[k]);
+    touch_pair(chunk, scratch, candidate, touch, time);
+    if (has_blocky && scratch.repeated[k] != 0) continue;
+    count_contact(chunk, ratio(candidate, touch.overlap), time);
+  }
 }
 
 Touch DemSystem::Implementation::spheres_touch(const Candidate& candidate) const {
@@ -142,7 +186,7 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch
                                            const Touch& touch, const StepTime& time) {
   const std::size_t i = candidate.i, j = candidate.j, p = candidate.pair;
   const Body a = body_of(i), b = body_of(j);
-  note_overlap(chunk, a.size <= b.size ? i : j, 2 * touch.overlap / std::min(a.size, b.size), time);
+  check_overlap(chunk, a.size <= b.size ? i : j, 2 * touch.overlap / std::min(a.size, b.size), time);
   const ContactLaw& pair_law = law(a.material, b.material);
   const double k_n = limits.stiffness_per_size * 2 * a.size * b.size / (a.size + b.size);
   const ContactConstants constants =
@@ -150,12 +194,14 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch
   const Vec3 &arm_a = touch.arm_a, arm_b = touch.arm_a - candidate.separation;
   const Vec3 velocity = a.v - b.v + a.w.cross(arm_a) - b.w.cross(arm_b);
   const Indentation at{touch.overlap, 0.5 * a.size * b.size / (a.size + b.size), touch.mass_effective};
+  const double share = share_of(i, j);
   const ContactForce contact =
       law_force(pair_law, constants, at, touch.normal, velocity, time.dt, pairs.spring[p]);
-  Vec3 torque_a = arm_a.cross(contact.force), torque_b = arm_b.cross(-contact.force);
-  chunk.lost_normal += contact.lost_normal;
-  chunk.lost_friction += contact.lost_friction;
-  chunk.elastic += contact.elastic;
+  const Vec3 force_a = share * contact.force;
+  Vec3 torque_a = arm_a.cross(force_a), torque_b = arm_b.cross(-force_a);
+  chunk.lost_normal += share * contact.lost_normal;
+  chunk.lost_friction += share * contact.lost_friction;
+  chunk.elastic += share * contact.elastic;
 
   if (has_rolling && pair_law.rolling > 0) {
     const double radius_a = 0.5 * a.size, radius_b = 0.5 * b.size;
@@ -164,28 +210,29 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch
         pair_law.rolling, radius_a * radius_b / (radius_a + radius_b), normal_stiffness(pair_law, k_n, at),
         about_a * about_b / (about_a + about_b), contact.normal);
     const Vec3 spin = a.w - b.w;
-    const Vec3 moment = rolling_torque(rolling, spin, time.dt, pairs.turned[p]);
+    const Vec3 moment = share * rolling_torque(rolling, spin, time.dt, pairs.turned[p]);
     torque_a += moment;
     torque_b -= moment;
     chunk.lost_friction -= moment.dot(spin) * time.dt;
   }
   pairs.touching[p] = 1;
   Push& on_a = scratch.push[i - scratch.begin];
-  on_a.force += contact.force;
+  on_a.force += force_a;
   on_a.torque += torque_a;
   Push& on_b =
       candidate.slot == Candidate::no_slot ? scratch.push[j - scratch.begin] : reactions[candidate.slot];
-  on_b.force -= contact.force;
+  on_b.force -= force_a;
   on_b.torque += torque_b;
 }
 
 void DemSystem::Implementation::end_pair(DemChunk& chunk, std::size_t i, std::size_t p) {
   // A spring that is still stretched snaps back.
-  const Body a = body_of(i), b = body_of(static_cast<std::size_t>(pairs.second[p]));
+  const auto j = static_cast<std::size_t>(pairs.second[p]);
+  const Body a = body_of(i), b = body_of(j);
   const double k_n = limits.stiffness_per_size * 2 * a.size * b.size / (a.size + b.size);
   const double k_spring = spring_stiffness(law(a.material, b.material), config.tangential_ratio * k_n,
                                            0.5 * a.size * b.size / (a.size + b.size));
-  chunk.lost_friction += 0.5 * k_spring * pairs.spring[p].squaredNorm();
+  chunk.lost_friction += share_of(i, j) * 0.5 * k_spring * pairs.spring[p].squaredNorm();
   pairs.touching[p] = 0;
   pairs.spring[p].setZero();
   if (has_rolling) pairs.turned[p].setZero();

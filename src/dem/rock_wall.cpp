@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dem/dem_state.h"
 
 namespace sluice {
@@ -14,6 +16,7 @@ void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const S
     const Vec3 belt = along_surface(still.surface_velocity(touch.wall, touch.point), touch.normal);
     touch_wall(chunk, i, touch, {belt, belt, Vec3::Zero()}, time);
   }
+  count_touches(chunk, i, near, time);
 }
 
 void DemSystem::Implementation::moving_walls_of(DemChunk& chunk, std::size_t i, const StepTime& time) {
@@ -26,7 +29,49 @@ void DemSystem::Implementation::moving_walls_of(DemChunk& chunk, std::size_t i, 
       touch_wall(chunk, i, in_space, part.surface_motion(in_space, time.dt), time);
       part.keep_history(in_space, touch);
     }
+    count_touches(chunk, i, near, time);
   }
+}
+
+/// Copies at one place of a wall are one contact.
+void DemSystem::Implementation::count_touches(DemChunk& chunk, std::size_t i, const RockWalls& near,
+                                              const StepTime& time) const {
+  const std::span<const WallTouch> touches(near.touches);
+  for (std::size_t k = 0; k < touches.size(); ++k) {
+    const auto is_deeper = [&](const WallTouch& other) {
+      if (other.patch != touches[k].patch || other.feature != touches[k].feature) return false;
+      return other.overlap > touches[k].overlap ||
+             (other.overlap == touches[k].overlap && other.copy < touches[k].copy);
+    };
+    if (is_blocky(i) && std::any_of(touches.begin(), touches.end(), is_deeper)) continue;
+    count_contact(chunk, 2 * touches[k].overlap / rocks.size[i], time);
+  }
+}
+
+/// Contacts of a rock, or of each of its copies, into the chunk's scratch.
+void DemSystem::Implementation::find_superquadric(DemChunk& chunk, std::size_t i, const WallsAndSurface& part,
+                                                  const RockPlace& place, const RockWalls& near) {
+  Superquadric shape = superquadric(i, place.x);
+  const double deepest = deepest_start * shape.semi_axes.minCoeff();
+  const auto find = [&](const Quat& q, std::span<const WallTouch> before) {
+    shape.q = q;
+    find_superquadric_contacts(part.surface, near.triangles, shape, rocks.radius[i], deepest, before,
+                               chunk.scratch);
+  };
+  if (!is_blocky(i)) return find(place.q, near.touches);
+  WallScratch& scratch = chunk.scratch;
+  scratch.of_copies.clear();
+  auto before = near.touches.begin();
+  for (std::size_t c = 0; c < face_copies; ++c) {
+    const int copy = static_cast<int>(c);
+    const auto next =
+        std::find_if(before, near.touches.end(), [&](const WallTouch& t) { return t.copy != copy; });
+    find(place.q * turns[c], {before, next});
+    for (WallTouch& touch : scratch.found) touch.copy = copy;
+    scratch.of_copies.insert(scratch.of_copies.end(), scratch.found.begin(), scratch.found.end());
+    before = next;
+  }
+  scratch.found.swap(scratch.of_copies);
 }
 
 bool DemSystem::Implementation::find_touches(DemChunk& chunk, std::size_t i, const WallsAndSurface& part,
@@ -42,17 +87,15 @@ bool DemSystem::Implementation::find_touches(DemChunk& chunk, std::size_t i, con
   if (is_sphere[static_cast<std::size_t>(body.shape)]) {
     find_sphere_contacts(part.surface, near.triangles, place.x, body.radius, near.touches, chunk.scratch);
   } else {
-    Superquadric shape = superquadric(i, place.x);
-    shape.q = place.q;
-    find_superquadric_contacts(part.surface, near.triangles, shape, body.radius,
-                               deepest_start * shape.semi_axes.minCoeff(), near.touches, chunk.scratch);
+    find_superquadric(chunk, i, part, place, near);
   }
   if (chunk.scratch.found.empty() && near.touches.empty()) return false;
   carry_history(near.touches, chunk.scratch, [&](const WallTouch& old) {
     const int wall_material = walls.all()[static_cast<std::size_t>(old.wall)].material;
     const double k_t = config.tangential_ratio * limits.stiffness_per_size * body.size;
     const double k_spring = spring_stiffness(law(body.material, wall_material), k_t, 0.5 * body.size);
-    const double lost = 0.5 * k_spring * old.spring.squaredNorm();
+    const double share = is_blocky(i) ? face_share : 1;
+    const double lost = share * 0.5 * k_spring * old.spring.squaredNorm();
     chunk.lost_friction += lost;
     chunk.loads[static_cast<std::size_t>(old.wall)].sliding_energy += lost;
   });
@@ -62,7 +105,7 @@ bool DemSystem::Implementation::find_touches(DemChunk& chunk, std::size_t i, con
 void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch,
                                            const SurfaceMotion& moves, const StepTime& time) {
   const Body body = body_of(i);
-  note_overlap(chunk, i, 2 * touch.overlap / body.size, time);
+  check_overlap(chunk, i, 2 * touch.overlap / body.size, time);
   const ContactLaw& pair_law = law(body.material, walls.all()[static_cast<std::size_t>(touch.wall)].material);
   const double k_n = limits.stiffness_per_size * body.size;
   const Vec3 arm = touch.point - body.x;
@@ -70,8 +113,8 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
   const ContactConstants constants =
       contact_constants(pair_law, k_n, config.tangential_ratio, at.mass_effective, config.end_of_contact);
   const Vec3 velocity = body.v + body.w.cross(arm) - moves.velocity;
-  const ContactForce contact =
-      law_force(pair_law, constants, at, touch.normal, velocity, time.dt, touch.spring);
+  const double share = is_blocky(i) ? face_share : 1;
+  ContactForce contact = law_force(pair_law, constants, at, touch.normal, velocity, time.dt, touch.spring);
   Vec3 moment = Vec3::Zero();
   double lost_rolling = 0;
   if (has_rolling && pair_law.rolling > 0) {
@@ -80,9 +123,13 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
         rolling_constants(pair_law.rolling, radius, normal_stiffness(pair_law, k_n, at),
                           1.4 * body.mass * radius * radius, contact.normal);
     const Vec3 spin = body.w - moves.spin;
-    moment = rolling_torque(rolling, spin, time.dt, touch.turned);
+    moment = share * rolling_torque(rolling, spin, time.dt, touch.turned);
     lost_rolling = -moment.dot(spin) * time.dt;
   }
+  contact.force *= share;
+  contact.lost_normal *= share;
+  contact.lost_friction *= share;
+  contact.elastic *= share;
   force[i] += contact.force;
   torque[i] += arm.cross(contact.force) + moment;
   chunk.lost_normal += contact.lost_normal;

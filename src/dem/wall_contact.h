@@ -25,6 +25,7 @@ struct WallTouch {
   Vec3 spring = Vec3::Zero();  ///< tangential stretch [m]
   Vec3 turned = Vec3::Zero();  ///< rolling history [rad]
   Vec3 start = Vec3::Zero();   ///< warm start of a superquadric on an edge or vertex, body frame [m]
+  int copy = 0;                ///< of a blocky rock, which of its copies touches (faces.h)
 };
 
 struct WallHit {
@@ -36,6 +37,7 @@ struct WallHit {
 /// What a search needs and may throw away; one per thread.
 struct WallScratch {
   std::vector<WallTouch> found;
+  std::vector<WallTouch> of_copies;  ///< found for the copies before, of a blocky rock
   std::vector<WallHit> hits;
   std::vector<std::uint8_t> taken;
   std::vector<int> features;
@@ -67,7 +69,7 @@ void carry_history(std::vector<WallTouch>& before, WallScratch& scratch, const L
       if (scratch.taken[before.size() + f]) continue;
       for (std::size_t b = 0; b < before.size(); ++b) {
         const WallTouch& old = before[b];
-        if (scratch.taken[b] || old.wall != found[f].wall) continue;
+        if (scratch.taken[b] || old.wall != found[f].wall || old.copy != found[f].copy) continue;
         if (round < 2 && old.patch != found[f].patch) continue;
         if (round < 1 && old.feature != found[f].feature) continue;
         if (round > 0 && old.normal.dot(found[f].normal) < same_direction) continue;
