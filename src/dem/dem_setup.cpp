@@ -129,6 +129,10 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
     only_spheres = only_spheres && shape.is_sphere();
     has_blocky = has_blocky || has_faces(shape.blockiness);
   }
+  if (has_blocky)
+    for (const RockShape& shape : scene.shapes)
+      copies.push_back(has_faces(shape.blockiness) ? make_face_copies(shape.semi_axes, shape.blockiness)
+                                                   : FaceCopies{});
   has_walls = surface.patch_count() > 0;
   periodic = scene.domain.any_periodic();
 }

@@ -121,9 +121,9 @@ struct DemSystem::Implementation {
   std::vector<ContactLaw> laws;         ///< by pair of materials
   std::vector<std::uint8_t> is_sphere;  ///< by shape
   bool only_spheres = true, has_rolling = false, has_walls = false, periodic = false;
-  bool has_blocky = false;  ///< some shape has faces
-  std::array<Quat, face_copies> turns = face_turns();
-  bool plain_laws = true;  ///< every pair is linear, without adhesion
+  bool has_blocky = false;         ///< some shape has faces
+  std::vector<FaceCopies> copies;  ///< by shape, unset for those without faces; empty if none has
+  bool plain_laws = true;          ///< every pair is linear, without adhesion
 
   Rocks rocks;
   std::vector<Vec3> angular;        ///< angular momentum of rocks [kg m2/s]; empty where all are spheres
@@ -175,6 +175,9 @@ struct DemSystem::Implementation {
   }
   bool has_sphere_shape(int shape) const { return is_sphere[static_cast<std::size_t>(shape)] != 0; }
   bool is_blocky(std::size_t i) const { return has_blocky && has_faces(shape_of(i).blockiness); }
+  const FaceCopies& copies_of(std::size_t i) const {
+    return copies[static_cast<std::size_t>(rocks.shape[i])];
+  }
   bool meet_as_copies(std::size_t i, std::size_t j) const { return is_blocky(i) && is_blocky(j); }
   /// Of two blocky rocks: whether the first is the one copied.
   bool is_copied(std::size_t i, std::size_t j) const {

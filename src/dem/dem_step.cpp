@@ -164,10 +164,10 @@ void DemSystem::Implementation::turn_copies() {
   turned_shapes.resize((1 + face_copies) * count());
   parallel_for(count(), [&](std::size_t i) {
     if (!is_blocky(i)) return;
-    for (std::size_t c = 0; c < face_copies; ++c) {
-      turned_shapes[copy_of(i, c)] = turned_shapes[i];
-      turned_shapes[copy_of(i, c)].q = turned_shapes[i].q * turns[c];
-    }
+    const FaceCopies& all = copies_of(i);
+    for (std::size_t c = 0; c < face_copies; ++c)
+      turned_shapes[copy_of(i, c)] = {rocks.q[i] * all.turns[c], all.semi_axes * rocks.size[i],
+                                      turned_shapes[i].m};
   });
 }
 

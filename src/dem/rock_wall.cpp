@@ -59,6 +59,8 @@ void DemSystem::Implementation::find_superquadric(DemChunk& chunk, std::size_t i
                                chunk.scratch);
   };
   if (!is_blocky(i)) return find(place.q, near.touches);
+  const FaceCopies& copies_here = copies_of(i);
+  shape.semi_axes = copies_here.semi_axes * rocks.size[i];
   WallScratch& scratch = chunk.scratch;
   scratch.of_copies.clear();
   auto before = near.touches.begin();
@@ -66,7 +68,7 @@ void DemSystem::Implementation::find_superquadric(DemChunk& chunk, std::size_t i
     const int copy = static_cast<int>(c);
     const auto next =
         std::find_if(before, near.touches.end(), [&](const WallTouch& t) { return t.copy != copy; });
-    find(place.q * turns[c], {before, next});
+    find(place.q * copies_here.turns[c], {before, next});
     for (WallTouch& touch : scratch.found) touch.copy = copy;
     scratch.of_copies.insert(scratch.of_copies.end(), scratch.found.begin(), scratch.found.end());
     before = next;

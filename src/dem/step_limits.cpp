@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
+#include "dem/faces.h"
 #include "dem/hertz_mindlin.h"
 
 namespace sluice {
@@ -17,8 +19,7 @@ constexpr double solid_fraction = 0.6;  // random packing
 constexpr double coordination = 6;      // isostatic, frictionless (Rumpf's formula, risk 10)
 constexpr int directions = 4000;        // Fibonacci points on the sphere, 0.03 rad apart
 
-double mobility_at(const RockShape& shape, double root_ratio, const Vec3& n) {
-  const Vec3 arm = support_point(shape.semi_axes, shape.blockiness, n);
+double mobility_at(const RockShape& shape, double root_ratio, const Vec3& arm, const Vec3& n) {
   Mat3 cross;
   cross << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
   const Mat3 mobility = Mat3::Identity() - cross * shape.inertia.cwiseInverse().asDiagonal() * cross;
@@ -152,12 +153,21 @@ bool linear_law_used(const Materials& materials) {
 double contact_mobility(const RockShape& shape, double tangential_ratio) {
   if (shape.is_sphere()) return std::max(1.0, 3.5 * tangential_ratio);
   const double root = std::sqrt(tangential_ratio);
+  std::optional<FaceCopies> copies;
+  if (has_faces(shape.blockiness)) copies = make_face_copies(shape.semi_axes, shape.blockiness);
   double most = 1;
   for (int i = 0; i < directions; ++i) {
     const double z = 1 - (2 * i + 1.0) / directions;
     const double angle = i * pi * (3 - std::sqrt(5.0));
     const double r = std::sqrt(1 - z * z);
-    most = std::max(most, mobility_at(shape, root, Vec3(r * std::cos(angle), r * std::sin(angle), z)));
+    const Vec3 n(r * std::cos(angle), r * std::sin(angle), z);
+    most = std::max(most, mobility_at(shape, root, support_point(shape.semi_axes, shape.blockiness, n), n));
+    if (!copies) continue;
+    // The contacts of four copies together are at most as mobile as the most mobile of them.
+    for (const Quat& turn : copies->turns) {
+      const Vec3 arm = turn * support_point(copies->semi_axes, shape.blockiness, turn.conjugate() * n);
+      most = std::max(most, mobility_at(shape, root, arm, n));
+    }
   }
   return most;
 }
