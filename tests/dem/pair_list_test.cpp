@@ -8,6 +8,7 @@
 
 #include "base/random.h"
 #include "dem/dem_scenes.h"
+#include "dem/faces.h"
 
 namespace sluice {
 namespace {
@@ -91,6 +92,49 @@ TEST(PairList, RemembersEachPairWhateverTheOrderOfTheRocks) {
     EXPECT_EQ(is.clear, was.clear);
     EXPECT_EQ(is.touching, was.touching);
   }
+}
+
+TEST(PairList, ListsBlockyRocksOnceForEachCopyAndKeepsTheCopiesApart) {
+  Random random(6);
+  std::vector<Vec3> x;
+  std::vector<double> reach;
+  constexpr int rocks = 600;
+  const PairList plain = random_list(rocks, x, reach, random);
+  const Domain domain{.box = {Vec3::Zero(), Vec3::Ones()}};
+  std::vector<std::uint8_t> blocky(rocks);
+  for (std::size_t i = 0; i < rocks; ++i) blocky[i] = i % 3 != 0;
+  PairList list({.rolling = true, .superquadrics = true});
+  list.rebuild(x, reach, domain, blocky);
+  std::size_t expected = 0;
+  for (std::size_t i = 0; i < plain.rock_count(); ++i)
+    for (std::size_t p = plain.start[i]; p < plain.start[i + 1]; ++p)
+      expected += blocky[i] && blocky[static_cast<std::size_t>(plain.second[p])] ? face_copies : 1;
+  ASSERT_EQ(list.pair_count(), expected);
+  // The place of each entry among those of its pair.
+  const auto places = [](const PairList& of) {
+    std::vector<double> place(of.pair_count(), 0);
+    for (std::size_t i = 0; i < of.rock_count(); ++i)
+      for (std::size_t p = of.start[i] + 1; p < of.start[i + 1]; ++p)
+        if (of.second[p] == of.second[p - 1]) place[p] = place[p - 1] + 1;
+    return place;
+  };
+  list.clear = places(list);
+  std::vector<int> new_index(rocks);
+  for (int i = 0; i < rocks; ++i) new_index[static_cast<std::size_t>(i)] = (7 * i + 3) % rocks;
+  auto new_x = x;
+  auto new_reach = reach;
+  auto new_blocky = blocky;
+  for (std::size_t i = 0; i < rocks; ++i) {
+    const auto to = static_cast<std::size_t>(new_index[i]);
+    new_x[to] = x[i];
+    new_reach[to] = reach[i];
+    new_blocky[to] = blocky[i];
+  }
+  list.reorder(new_index);
+  EXPECT_EQ(list.clear, places(list));
+  list.rebuild(new_x, new_reach, domain, new_blocky);
+  ASSERT_EQ(list.pair_count(), expected);
+  EXPECT_EQ(list.clear, places(list));
 }
 
 TEST(PairList, GivesEachPairThatLeavesItsChunkASlotOfItsOwn) {
