@@ -10,8 +10,14 @@ cmake --preset release >/dev/null
 cmake --build --preset release --target sluice_bench
 threads="${OMP_NUM_THREADS:-$(nproc)}"
 export OMP_NUM_THREADS="$threads"
+found=$(mktemp)
+trap 'rm -f "$found"' EXIT
 text=$(build/release/sluice_bench --benchmark_filter="$filter" --benchmark_counters_tabular=true --benchmark_min_time=0.3 \
-  --benchmark_out=reports/benchmarks.json --benchmark_out_format=json 2>/dev/null)
+  --benchmark_out="$found" --benchmark_out_format=json 2>/dev/null)
+if grep 'ERROR OCCURRED' <<<"$text" >&2; then
+  echo "bench: a benchmark found its answer wrong; nothing is written" >&2
+  exit 1
+fi
 {
   echo "# Benchmarks"
   echo
@@ -27,5 +33,5 @@ text=$(build/release/sluice_bench --benchmark_filter="$filter" --benchmark_count
   echo '```'
 } >reports/benchmarks.md
 # The machine's name is nobody's business.
-sed -i 's/"host_name": "[^"]*"/"host_name": ""/; s|"executable": "[^"]*"|"executable": "sluice_bench"|' reports/benchmarks.json
+sed 's/"host_name": "[^"]*"/"host_name": ""/; s|"executable": "[^"]*"|"executable": "sluice_bench"|' "$found" >reports/benchmarks.json
 echo "written: reports/benchmarks.md"

@@ -7,6 +7,7 @@
 
 #include "base/random.h"
 #include "mpm/mpm_system.h"
+#include "speed/speed.h"
 
 namespace {
 
@@ -78,31 +79,24 @@ void water_steps(benchmark::State& state, Scene scene, Precision precision) {
   step();
   const double mass = water->total_mass();
   const Vec3 momentum = water->momentum();
-  for (auto _ : state) step();
+  const double seconds = speed::time_steps(state, step);
   const double moved = (water->momentum() - momentum).norm() / mass;
   if (water->total_mass() != mass || !(moved < (scene == Scene::walled ? 0.05 : 1e-5)) ||
       !(water->largest_speed() < 2))
     state.SkipWithError("the water did not stay as it should");
   const double points = static_cast<double>(water->count());
-  state.counters["point_steps_per_s"] =
-      benchmark::Counter(points * static_cast<double>(state.iterations()), benchmark::Counter::kIsRate);
+  state.counters["point_steps_per_s"] = speed::rate(state, points, seconds);
   state.counters["bytes_per_point"] = static_cast<double>(water->memory_bytes()) / points;
 }
 
 BENCHMARK_CAPTURE(water_steps, box_1m, Scene::walled, Precision::single)
     ->Name("mpm_water/box_1m")
-    ->Iterations(30)
-    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(water_steps, bare_1m, Scene::bare, Precision::single)
     ->Name("mpm_water/bare_1m")
-    ->Iterations(30)
-    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(water_steps, box_1m_double, Scene::walled, Precision::reference)
     ->Name("mpm_water/box_1m_double")
-    ->Iterations(10)
-    ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace

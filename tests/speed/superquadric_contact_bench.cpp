@@ -11,6 +11,7 @@
 #include "dem/rock_shape.h"
 #include "dem/superquadric_newton.h"
 #include "dem/superquadric_pairs.h"
+#include "speed/speed.h"
 
 namespace sluice {
 namespace {
@@ -63,11 +64,11 @@ template <class Solve>
 void run(benchmark::State& state, double m, double aspect, const Solve& solve) {
   Contacts c = make_contacts(m, aspect);
   int pose = 0;
-  for (auto _ : state) {
+  const double seconds = speed::time_steps(state, [&] {
     pose = 1 - pose;
     solve(c, pose);
     benchmark::ClobberMemory();
-  }
+  });
   solve(c, 0);
   double worst = 0;
   std::size_t wrong = 0;
@@ -79,8 +80,7 @@ void run(benchmark::State& state, double m, double aspect, const Solve& solve) {
   // Another local maximum of the gap is possible at m = 8; not for more than one pair in a thousand.
   if (wrong > kCount / 1000) state.SkipWithError("overlaps differ from those known by construction");
   state.counters["worst_error_m"] = worst;
-  state.counters["contacts_per_s"] =
-      benchmark::Counter(static_cast<double>(state.iterations()) * kCount, benchmark::Counter::kIsRate);
+  state.counters["contacts_per_s"] = speed::rate(state, kCount, seconds);
 }
 
 void all_at_once(Contacts& c, int pose) {
