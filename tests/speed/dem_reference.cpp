@@ -4,13 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "dem/superquadric_contact.h"
+#include "base/find_by_id.h"
+#include "dem/faces.h"
 #include "speed/dem_scenes.h"
 
 namespace sluice::speed {
 
 namespace {
 constexpr double most_by_descent = 4;  // blockiness
+constexpr std::size_t first_wall = 0xffff0000u;
 
 /// Restitution of x'' + 2 zeta x' + x = 0 from x = 0, x' = 1 until the force is zero (zeta < 1).
 double rebound(double zeta) {
@@ -118,6 +120,7 @@ PlainRocks::PlainRocks(const DemSystem& dem, double restitution, double friction
                        std::vector<PlainWall> walls)
     : zeta_(damping_of(restitution)), friction_(friction), walls_(std::move(walls)) {
   const Rocks& r = dem.rocks();
+  ids_ = r.id;
   before_ = {r.x, r.v, r.w, r.q};
   force_.assign(r.count(), Vec3::Zero());
   torque_ = force_;
@@ -131,14 +134,9 @@ Vec3 PlainRocks::turn_inertia(const DemSystem& dem, std::size_t rock, const Vec3
   return turn * (inverse ? Vec3(body.cwiseQuotient(inertia)) : Vec3(body.cwiseProduct(inertia)));
 }
 
-bool PlainRocks::common_normal(const DemSystem& dem, int i, int j, Contact& contact) {
-  const Rocks& r = dem.rocks();
-  const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-  const RockShape& shape_a = dem.shapes()[static_cast<std::size_t>(r.shape[a])];
-  const RockShape& shape_b = dem.shapes()[static_cast<std::size_t>(r.shape[b])];
-  const Mat3 turn_a = r.q[a].toRotationMatrix(), turn_b = r.q[b].toRotationMatrix();
-  const Vec3 d = dem.scene().domain.nearest_image(r.x[b] - r.x[a]);
-  const Vec3 axes_a = dem.semi_axes(a), axes_b = dem.semi_axes(b);
+bool PlainRocks::common_normal(const Superquadric& a, const Superquadric& b, Contact& contact) {
+  const Mat3 turn_a = a.q.toRotationMatrix(), turn_b = b.q.toRotationMatrix();
+  const Vec3 d = b.x - a.x;
   // The overlap along n is h_A(n) + h_B(-n) - n d: the direction of the least one is the normal.
   struct Value {
     double overlap;
@@ -146,20 +144,19 @@ bool PlainRocks::common_normal(const DemSystem& dem, int i, int j, Contact& cont
     Mat3 hessian;
   };
   const auto at = [&](const Vec3& n) {
-    const Support s = support(axes_a, shape_a.blockiness, turn_a.transpose() * n);
-    const Support t = support(axes_b, shape_b.blockiness, turn_b.transpose() * -n);
+    const Support s = support(a.semi_axes, a.m, turn_a.transpose() * n);
+    const Support t = support(b.semi_axes, b.m, turn_b.transpose() * -n);
     return Value{s.height + t.height - n.dot(d), turn_a * s.point, d + turn_b * t.point,
                  turn_a * s.hessian * turn_a.transpose() + turn_b * t.hessian * turn_b.transpose()};
   };
-  const double least = std::min(axes_a.minCoeff(), axes_b.minCoeff());
-  if (shape_a.blockiness > most_by_descent) {
+  const double least = std::min(a.semi_axes.minCoeff(), b.semi_axes.minCoeff());
+  if (a.m > most_by_descent) {
     // Flat faces: the direction says too little about the point, so both are the library's, cold, to
     // rounding. Its overlap must be that of the support functions, and no direction near by may have a
     // smaller one.
     PairMemory cold;
     ContactGeometry found;
-    superquadric_gap({Vec3::Zero(), r.q[a], axes_a, shape_a.blockiness},
-                     {d, r.q[b], axes_b, shape_b.blockiness}, cold, found);
+    superquadric_gap(a, b, cold, found);
     const double overlap = at(found.normal).overlap;
     bool proved = std::fabs(overlap - found.overlap) < 1e-8 * least;
     for (int k = 0; k < 8 && proved; ++k) {
@@ -211,21 +208,39 @@ void PlainRocks::find_contacts(const DemSystem& dem) {
   contacts_.clear();
   for (const auto& [i, j] : overlapping_spheres(r.x, r.radius, dem.scene().domain)) {
     const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
+    const RockShape& shape_a = dem.shapes()[static_cast<std::size_t>(r.shape[a])];
+    const RockShape& shape_b = dem.shapes()[static_cast<std::size_t>(r.shape[b])];
+    const Vec3 d = dem.scene().domain.nearest_image(r.x[b] - r.x[a]);
     Contact c;
-    c.key = (static_cast<std::uint64_t>(i) << 32) + static_cast<std::uint64_t>(j);
+    c.key = {a, b, 0};
     c.first = i;
     c.second = j;
     c.size = 2 * r.size[a] * r.size[b] / (r.size[a] + r.size[b]);
-    if (dem.shapes()[static_cast<std::size_t>(r.shape[a])].is_sphere()) {
-      const Vec3 d = dem.scene().domain.nearest_image(r.x[b] - r.x[a]);
+    if (shape_a.is_sphere()) {
       c.normal = d.normalized();
       c.overlap = 0.5 * (r.size[a] + r.size[b]) - d.norm();
       c.arm_first = (0.5 * r.size[a] - 0.5 * c.overlap) * c.normal;
       c.arm_second = c.arm_first - d;
-    } else if (!common_normal(dem, i, j, c)) {
+      contacts_.push_back(c);
       continue;
     }
-    contacts_.push_back(c);
+    const Superquadric one{Vec3::Zero(), r.q[a], dem.semi_axes(a), shape_a.blockiness};
+    const Superquadric other{d, r.q[b], dem.semi_axes(b), shape_b.blockiness};
+    if (!has_faces(one.m) || !has_faces(other.m)) {
+      if (common_normal(one, other, c)) contacts_.push_back(c);
+      continue;
+    }
+    const bool copy_first = r.size[a] != r.size[b] ? r.size[a] < r.size[b] : r.id[a] < r.id[b];
+    const FaceCopies copies = copy_first ? make_face_copies(shape_a.semi_axes, one.m)
+                                         : make_face_copies(shape_b.semi_axes, other.m);
+    c.share = face_share;
+    for (std::size_t k = 0; k < face_copies; ++k) {
+      Superquadric copied = copy_first ? one : other;
+      copied.q = copied.q * copies.turns[k];
+      copied.semi_axes = copies.semi_axes * (copy_first ? r.size[a] : r.size[b]);
+      c.key[2] = k;
+      if (common_normal(copy_first ? copied : one, copy_first ? other : copied, c)) contacts_.push_back(c);
+    }
   }
 }
 
@@ -238,7 +253,7 @@ void PlainRocks::find_wall_contacts(const DemSystem& dem) {
       const double overlap = 0.5 * r.size[i] - height;
       if (!(overlap > 0) || height < 0 || !above_polygon(wall, r.x[i])) continue;
       Contact c;
-      c.key = (static_cast<std::uint64_t>(i) << 32) + 0xffff0000u + k;
+      c.key = {i, first_wall + k, 0};
       c.first = static_cast<int>(i);
       c.second = -1;
       c.normal = -wall.normal;
@@ -271,7 +286,7 @@ void PlainRocks::add_force(const DemSystem& dem, const Contact& c, double dt) {
 
   // The spring turns into the plane of contact, then stretches; both together obey Coulomb.
   const auto known = std::lower_bound(memory_.begin(), memory_.end(), c.key,
-                                      [](const Memory& m, std::uint64_t key) { return m.key < key; });
+                                      [](const Memory& m, const Key& key) { return m.key < key; });
   Vec3 spring = known != memory_.end() && known->key == c.key ? known->spring : Vec3(Vec3::Zero());
   const double length = spring.norm();
   spring -= spring.dot(c.normal) * c.normal;
@@ -284,7 +299,7 @@ void PlainRocks::add_force(const DemSystem& dem, const Contact& c, double dt) {
   }
   new_memory_.push_back({c.key, spring});
 
-  const Vec3 force = -normal * c.normal - tangential;
+  const Vec3 force = c.share * (-normal * c.normal - tangential);
   force_[i] += force;
   torque_[i] += c.arm_first.cross(force);
   if (wall) return;
@@ -292,10 +307,41 @@ void PlainRocks::add_force(const DemSystem& dem, const Contact& c, double dt) {
   torque_[j] -= c.arm_second.cross(force);
 }
 
+/// The system may have sorted its rocks.
+void PlainRocks::take_order_of(const Rocks& rocks) {
+  if (rocks.id == ids_) return;
+  FindById old_places(ids_);
+  const State state = before_;
+  const std::vector<Vec3> force = force_, torque = torque_;
+  std::vector<std::size_t> new_place(ids_.size());
+  for (std::size_t i = 0; i < rocks.count(); ++i) {
+    const std::size_t from = old_places.find(rocks.id[i]).value();
+    new_place[from] = i;
+    before_.x[i] = state.x[from];
+    before_.v[i] = state.v[from];
+    before_.w[i] = state.w[from];
+    before_.q[i] = state.q[from];
+    force_[i] = force[from];
+    torque_[i] = torque[from];
+  }
+  for (Memory& memory : memory_) {
+    auto& [first, second, copy] = memory.key;
+    first = new_place[first];
+    if (second >= first_wall) continue;
+    second = new_place[second];
+    if (first < second) continue;
+    std::swap(first, second);
+    memory.spring = -memory.spring;  // it is now seen from the other rock
+  }
+  std::sort(memory_.begin(), memory_.end(), [](const Memory& a, const Memory& b) { return a.key < b.key; });
+  ids_ = rocks.id;
+}
+
 Departure PlainRocks::follow(const DemSystem& dem, double dt, double tolerance) {
   const Rocks& r = dem.rocks();
   const Vec3& gravity = dem.scene().gravity;
   const std::size_t n = r.count();
+  take_order_of(r);
   const auto angular = [&](std::size_t i, const Quat& q, const Vec3& w) -> Vec3 {
     return q * Vec3((q.conjugate() * w).cwiseProduct(dem.inertia(i)));
   };
@@ -327,8 +373,12 @@ Departure PlainRocks::follow(const DemSystem& dem, double dt, double tolerance) 
   new_memory_.clear();
   for (const Contact& contact : contacts_) add_force(dem, contact, dt);
   memory_.swap(new_memory_);
-  result.contacts = contacts_.size();
-  for (const Contact& contact : contacts_) result.wall_contacts += contact.second < 0;
+  for (std::size_t k = 0; k < contacts_.size(); ++k) {
+    const auto& [first, second, copy] = contacts_[k].key;
+    if (k > 0 && contacts_[k - 1].key[0] == first && contacts_[k - 1].key[1] == second) continue;
+    ++result.contacts;
+    result.wall_contacts += contacts_[k].second < 0;
+  }
   result.unproved = unproved_;
 
   double kick = 0, twist = 0;

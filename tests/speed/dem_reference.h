@@ -6,7 +6,8 @@
 /// walls as analytic planes. (For m above 4 the normal comes from superquadric_gap, one pair at a time and
 /// without a memory, and the support functions confirm it.) It follows a system from its first step:
 /// positions and velocities are the system's own, forces, springs and what follows from them are the
-/// reference's, so that an error of one step is an error of that step.
+/// reference's, so that an error of one step is an error of that step. Two blocky rocks meet as the copies of
+/// dem/faces.h do.
 
 #include <array>
 #include <cstdint>
@@ -14,6 +15,7 @@
 #include <vector>
 
 #include "dem/dem_system.h"
+#include "dem/superquadric_contact.h"
 
 namespace sluice::speed {
 
@@ -56,19 +58,22 @@ class PlainRocks {
     std::vector<Vec3> x, v, w;
     std::vector<Quat> q;
   };
+  using Key = std::array<std::size_t, 3>;  ///< rock; rock or first_wall + wall; copy of a blocky rock
   struct Memory {
-    std::uint64_t key;  ///< pair, or rock and wall
-    Vec3 spring;        ///< [m]
+    Key key;
+    Vec3 spring;  ///< [m]
   };
   struct Contact {
-    std::uint64_t key;
+    Key key;
     int first, second;  ///< second is -1 at a wall
+    double share = 1;   ///< of a whole contact's strength
     Vec3 normal, arm_first, arm_second;
     double overlap, size;  ///< size: harmonic mean of both [m]
   };
+  void take_order_of(const Rocks& rocks);
   void find_contacts(const DemSystem& dem);
   void find_wall_contacts(const DemSystem& dem);
-  bool common_normal(const DemSystem& dem, int i, int j, Contact& contact);
+  bool common_normal(const Superquadric& a, const Superquadric& b, Contact& contact);
   void add_force(const DemSystem& dem, const Contact& contact, double dt);
   double mobility(const DemSystem& dem, int rock, const Vec3& arm, const Vec3& n) const;
   Vec3 turn_inertia(const DemSystem& dem, std::size_t rock, const Vec3& w, bool inverse) const;
@@ -77,6 +82,7 @@ class PlainRocks {
   std::size_t unproved_ = 0;
   std::vector<PlainWall> walls_;
   std::function<bool(const Vec3&)> left_out_;
+  std::vector<std::uint64_t> ids_;  ///< of the last step, in its order
   State before_;
   std::vector<Vec3> force_, torque_;  ///< of the last step [N], [N m]
   std::vector<Vec3> v_half_, w_half_;

@@ -161,10 +161,11 @@ Domain press(const BedRecipe& recipe, Domain cell, std::vector<NewRock>& rocks) 
     };
     double coordination = coordination_after(recipe.steps_per_stage);
     if (coordination > recipe.coordination) coordination = coordination_after(4 * recipe.steps_per_stage);
-    for (std::size_t i = 0; i < rocks.size(); ++i) {
-      rocks[i].x = dem.rocks().x[i];
-      rocks[i].q = dem.rocks().q[i];
-      rocks[i].v = dem.rocks().v[i];
+    for (std::size_t k = 0; k < rocks.size(); ++k) {
+      NewRock& rock = rocks[dem.rocks().id[k]];  // the system may have sorted them
+      rock.x = dem.rocks().x[k];
+      rock.q = dem.rocks().q[k];
+      rock.v = dem.rocks().v[k];
     }
     if (coordination > recipe.coordination) return cell;
     by = std::max(last_shrink, coordination > 0.5 * recipe.coordination    ? 0.1 * most
