@@ -88,9 +88,7 @@ int validate_cases(const ValidateOptions& options) {
   ladder.told = [](const ValidationCase& c, const ValidationRung& r) {
     fmt::print("{:<26} {} = {:<10} error {:.3g}{}  {:.2f} s  {}\n", c.name, c.vary, r.setting, r.error,
                r.gate ? fmt::format(" (gate {:g})", *r.gate) : "", r.seconds,
-               !r.stable    ? "unstable: " + r.message
-               : r.passed() ? ""
-                            : "FAIL");
+               !r.stable ? "unstable: " + r.message : (r.passed() ? "" : "FAIL ") + r.message);
     std::fflush(stdout);
   };
   for (const Case& c : cases) {

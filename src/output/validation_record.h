@@ -22,7 +22,7 @@ struct ValidationRung {
   double error = 0;            ///< in the case's norm; NaN where the run broke
   std::optional<double> gate;  ///< largest error that passes
   bool stable = true;          ///< ran to its end with finite values
-  std::string message;         ///< why not
+  std::string message;         ///< why not, or what the measurement had to leave out
   double seconds = 0;          ///< of run time
   double particle_steps = 0;   ///< rocks, points or samples times steps
   std::string command;         ///< that runs this rung alone

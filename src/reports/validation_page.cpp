@@ -33,6 +33,10 @@ std::string verdict(const ValidationRung& r) {
 std::string verdict(const ValidationCase& c) {
   return c.passed() ? "pass" : "FAIL";
 }
+std::string stability(const ValidationRung& r) {
+  if (!r.stable) return r.message;
+  return r.message.empty() ? "yes" : "yes, " + r.message;
+}
 std::string coloured(const std::string& word) {
   const bool bad = word == "FAIL" || word == "unstable";
   return fmt::format("<span class=\"{}\">{}</span>", bad ? "bad" : word == "pass" ? "good" : "soft", word);
@@ -70,7 +74,7 @@ std::string rung_table(const ValidationCase& c) {
   std::vector<std::vector<std::string>> rows;
   for (const ValidationRung& r : c.rungs)
     rows.push_back({html(r.setting), significant(r.error), significant(r.gate), significant(r.seconds),
-                    significant(r.nanoseconds()), r.stable ? "yes" : html(r.message), coloured(verdict(r)),
+                    significant(r.nanoseconds()), html(stability(r)), coloured(verdict(r)),
                     "<code>" + html(r.command) + "</code>"});
   return html_table({html(c.vary), "error", "gate", "seconds", "ns per " + c.particle + "-step", "stable",
                      "outcome", "command"},
@@ -154,7 +158,7 @@ std::string validation_markdown(const ValidationRecord& record) {
     for (const ValidationRung& r : c.rungs)
       out += fmt::format("| {} | {} | {} | {} | {} | {} | {} | `{}` |\n", r.setting, significant(r.error),
                          significant(r.gate), significant(r.seconds), significant(r.nanoseconds()),
-                         r.stable ? "yes" : cell(r.message), verdict(r), r.command);
+                         cell(stability(r)), verdict(r), r.command);
   }
   return out;
 }

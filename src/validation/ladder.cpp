@@ -32,12 +32,13 @@ ValidationRung run_rung(const Case& what, const Rung& rung, const LadderOptions&
     out.particle_steps = measured.particle_steps;
     out.error = error_of(measured.values, config.norm);
     for (const Compared& v : measured.values) out.values.push_back({v.what, v.measured, v.reference});
-    if (!std::isfinite(out.error)) out.message = "a measured value is not finite";
+    out.stable = std::isfinite(out.error);
+    out.message = out.stable ? measured.note : "a measured value is not finite";
   } catch (const NumericalError& e) {
+    out.stable = false;
     out.message = e.what();
   }
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  out.stable = out.message.empty();
   return out;
 }
 

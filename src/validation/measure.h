@@ -23,6 +23,7 @@ struct Compared {
 struct Measured {
   std::vector<Compared> values;
   double particle_steps = 0;  ///< rocks, points or samples times steps
+  std::string note;           ///< what had to be left out; empty: nothing
 };
 
 class Measure {
@@ -46,5 +47,8 @@ double error_of(const std::vector<Compared>& values, ErrorNorm norm);
 /// Column of a case's reference table. @throws InputError if it is not there
 std::vector<double> reference_numbers(const CsvTable& reference, const char* column);
 std::vector<std::string> reference_texts(const CsvTable& reference, const char* column);
+
+/// Straight line between neighbours; ascending x. @pre x is not empty
+double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);
 
 }  // namespace sluice

@@ -9,6 +9,9 @@
 #include "validation/emitter_flux.h"
 #include "validation/rock_bed_energy.h"
 #include "validation/rock_bounces.h"
+#include "validation/rock_hertz.h"
+#include "validation/rock_hertz_oblique.h"
+#include "validation/rock_hertz_rebound.h"
 #include "validation/rock_hopper.h"
 #include "validation/rock_incline.h"
 #include "validation/rock_oblique.h"
@@ -45,6 +48,9 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"rock_rotation", "rock", made<RockRotation>},
       {"rock_stack", "rock", made<RockStack>},
       {"rock_bed_energy", "rock", made<RockBedEnergy>},
+      {"rock_hertz", "rock", made<RockHertz>},
+      {"rock_hertz_rebound", "rock", made<RockHertzRebound>},
+      {"rock_hertz_oblique", "rock", made<RockHertzOblique>},
       {"rock_hopper", "rock", made<RockHopper>},
       {"water_still", "point", made<WaterStill>},
       {"water_taylor_green", "point", made<WaterTaylorGreen>},

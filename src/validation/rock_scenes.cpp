@@ -16,7 +16,7 @@ DemConfig config_of(const RockSetup& setup) {
 DemScene scene_of(const RockSetup& setup) {
   DemScene scene;
   scene.materials.all = setup.rocks;
-  scene.materials.all.push_back({"wall", 0});
+  scene.materials.all.push_back(setup.wall);
   scene.materials.pairs.assign(scene.materials.all.size() * scene.materials.all.size(), setup.pair);
   scene.shapes = setup.shapes;
   scene.domain.box = setup.box;

@@ -10,6 +10,7 @@ namespace sluice {
 
 struct RockSetup {
   std::vector<Material> rocks{{"rock", 2700}};
+  Material wall{"wall", 0};
   PairProperties pair{0.5, 0.5, 0};        ///< of all materials, walls too
   double smallest = 0.02, largest = 0.02;  ///< [m]
   double stiffness_per_size = 1e6;         ///< [N/m2]

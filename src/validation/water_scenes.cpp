@@ -63,13 +63,4 @@ double still_pressure(double density, double gravity, double sound_speed, double
   return density * sound_speed * sound_speed * std::expm1(gravity * depth / (sound_speed * sound_speed));
 }
 
-double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {
-  const auto above = std::upper_bound(x.begin(), x.end(), at);
-  if (above == x.begin()) return y.front();
-  if (above == x.end()) return y.back();
-  const auto i = static_cast<std::size_t>(above - x.begin());
-  const double share = (at - x[i - 1]) / (x[i] - x[i - 1]);
-  return y[i - 1] + share * (y[i] - y[i - 1]);
-}
-
 }  // namespace sluice

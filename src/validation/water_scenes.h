@@ -48,7 +48,4 @@ Domain water_domain(const Box& box, std::array<bool, 3> periodic);
 /// rho0 c^2 (exp(g d / c^2) - 1) [Pa].
 double still_pressure(double density, double gravity, double sound_speed, double depth);
 
-/// Straight line between neighbours; ascending x. @pre x is not empty
-double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);
-
 }  // namespace sluice
