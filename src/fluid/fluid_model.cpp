@@ -1,5 +1,6 @@
 #include "fluid/fluid_model.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace sluice {
@@ -22,6 +23,11 @@ void FluidModel::keys(Schema& s) {
 
 double slurry_density(const FluidModel& model, double phi) {
   return model.density + phi * (model.fines_density - model.density);
+}
+
+double fines_fraction(const FluidModel& model, double density) {
+  return std::clamp((density - model.density) / (model.fines_density - model.density), 0.0,
+                    0.95 * model.packing);
 }
 
 double slurry_viscosity(const FluidModel& model, double phi) {

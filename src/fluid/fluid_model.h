@@ -16,6 +16,9 @@ struct FluidModel {
 
 /// Density of a slurry whose volume fraction of fines is phi [kg/m3].
 double slurry_density(const FluidModel& model, double phi);
+/// The phi of a slurry that has this density [kg/m3], within 0 .. 0.95 packing: the inverse of the above.
+/// @pre grains and liquid differ in density
+double fines_fraction(const FluidModel& model, double density);
 /// Viscosity of that slurry [Pa s]: Krieger & Dougherty (1959), mu (1 - phi/packing)^(-2.5 packing).
 /// @pre 0 <= phi < packing
 double slurry_viscosity(const FluidModel& model, double phi);

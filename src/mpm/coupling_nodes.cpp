@@ -48,16 +48,13 @@ void ExplicitMpm<Real>::read_nodes(FluidNodes& out) const {
               static_cast<double>(node[fill] * grid_.open(slot)[n] * grid_.void_fraction(slot)[n]) * cell;
           const double density = volume > 0 ? m / volume : fluid.density;
           const double e = static_cast<double>(node[dilation]);
-          const double solids =
-              std::clamp((density * (1 + e) - fluid.density) / (fluid.fines_density - fluid.density), 0.0,
-                         0.95 * fluid.packing);
           out.x[to] = layout_.node_position(place + Vec3i(n & 3, (n >> 2) & 3, n >> 4));
           out.mass[to] = m;
           out.v[to] = vector_at(node, velocity) + vector_at(node, change);
           out.open_volume[to] = static_cast<double>(grid_.open(slot)[n]) * cell;
           out.pressure[to] = -density * sound_speed_ * sound_speed_ * e / (1 + e);
           out.fill[to] = static_cast<double>(node[fill]);
-          out.viscosity[to] = store_.fines.empty() ? fluid.viscosity : slurry_viscosity(fluid, solids);
+          out.viscosity[to] = viscosity_of(density * (1 + e));
           out.density[to] = density;
           ++to;
         }

@@ -135,6 +135,12 @@ class ExplicitMpm final : public FluidSystem {
   void pour_loads(std::size_t lists);
 
   Vec3 velocity_of(const Point& p) const { return Vec3(p.v[0], p.v[1], p.v[2]); }
+  /// Of fluid at a node [Pa s]; fines are what makes it denser.
+  /// @param density  without pressure [kg/m3]
+  double viscosity_of(double density) const {
+    const FluidModel& fluid = config_.fluid;
+    return store_.fines.empty() ? fluid.viscosity : slurry_viscosity(fluid, fines_fraction(fluid, density));
+  }
   double fines_of(std::size_t slot) const { return store_.fines.empty() ? 0.0 : store_.fines[slot]; }
   Vec3 position(const Real* x, std::int32_t cell_key) const {
     return layout_.origin() +

@@ -12,6 +12,14 @@ TEST(SlurryDensity, IsTheVolumeMeanOfLiquidAndGrains) {
   EXPECT_DOUBLE_EQ(slurry_density(model, 1.0), 2700.0);
 }
 
+TEST(FinesFraction, IsReadBackFromTheDensity) {
+  const FluidModel model;
+  for (const double phi : {0.0, 0.013, 0.2, 0.5})
+    EXPECT_NEAR(fines_fraction(model, slurry_density(model, phi)), phi, 1e-14);
+  EXPECT_EQ(fines_fraction(model, 990), 0);
+  EXPECT_EQ(fines_fraction(model, 2700), 0.95 * model.packing);
+}
+
 // Krieger & Dougherty (1959): (1 - 0.3/0.6)^(-1.5) = 2^1.5.
 TEST(SlurryViscosity, FollowsKriegerAndDougherty) {
   FluidModel model;
