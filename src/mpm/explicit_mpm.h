@@ -116,8 +116,8 @@ class ExplicitMpm final : public FluidSystem {
   void wall_block(std::int32_t slot, std::uint32_t first, WallImpulses& impulses);
   void close_pressure(Node& node, double volume, std::span<const WallPlane> planes, const Vec3& at,
                       WallImpulses& impulses) const;
-  void hold_at_walls(Node& node, double volume, std::span<const WallPlane> planes, const Vec3& at,
-                     WallImpulses& impulses) const;
+  void hold_at_walls(Node& node, double volume, Vec3 cut_off, std::span<const WallPlane> planes,
+                     const Vec3& at, WallImpulses& impulses) const;
   void load_tile(const PointBlock& block, NodeTile& tile) const;
   void move_block(std::size_t index, NodeTile& tile);
   void gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, const NodeTile& tile,

@@ -30,7 +30,8 @@ void MpmConfig::keys(Schema& s) {
            {{"slip", WallSlip::slip},
             {"no_slip", WallSlip::no_slip},
             {"turbulent_film", WallSlip::turbulent_film}},
-           {.doc = "how walls brake water: not at all, at once, or as a turbulent film by rho f/8 |u| u"});
+           {.doc = "how walls brake water: not at all, by its viscosity (where some cells resolve the "
+                   "sheared layer), or as a turbulent film by rho f/8 |u| u"});
   s.number("film_friction", film_friction,
            {.at_least = 0,
             .at_most = 0.2,

@@ -157,16 +157,15 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
       used[used_count++] = q;
     }
     Vec3 ghost = v + C * mirrored, ghost_change = mean_change;
-    if (used_count > 0 && config_.wall_slip == WallSlip::no_slip) {
-      const WallPlane& plane = planes[used[0]];
-      ghost = 2 * field_->surface_velocity(plane.wall, x + plane.distance * plane.normal) - ghost;
-      ghost_change = -ghost_change;
-    } else {
-      for (int q = used_count - 1; q >= 0; --q) {
-        const Vec3& normal = planes[used[q]].normal;
-        ghost -= 2 * ghost.dot(normal) * normal;
-        ghost_change -= 2 * ghost_change.dot(normal) * normal;
-      }
+    for (int q = used_count - 1; q >= 0; --q) {
+      const WallPlane& plane = planes[used[q]];
+      // Friction is in the nodes' changes already, so those are mirrored as without it; shear goes on through
+      // the wall.
+      ghost_change -= 2 * ghost_change.dot(plane.normal) * plane.normal;
+      if (config_.wall_slip == WallSlip::no_slip)
+        ghost = 2 * field_->surface_velocity(plane.wall, x + plane.distance * plane.normal) - ghost;
+      else
+        ghost -= 2 * ghost.dot(plane.normal) * plane.normal;
     }
     for (int r = 0; r < 3; ++r) {
       const double whole = ghost_change[r] + mean_bulk * ghost[r];

@@ -91,6 +91,7 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
     std::span<const WallPlane> planes;
     Vec3 at = Vec3::Zero();
     double volume = 0;
+    const Vec3 cut_off = vector_at(node, gradient);
     if (field_) {
       const Vec3i where = place + Vec3i(n & 3, (n >> 2) & 3, n >> 4);
       planes = field_->planes_of_node(where);
@@ -106,7 +107,7 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
       node[gradient + r] = node[change + r] - gravity_change[r] - static_cast<Real>(pushed[r]);
     if (!planes.empty()) {
       node[near_wall] = chi_mass;
-      hold_at_walls(node, volume, planes, at, impulses);
+      hold_at_walls(node, volume, cut_off, planes, at, impulses);
     }
     const Real bulk = std::clamp((node[fill] - spray) * ramp, Real(0), Real(1));
     for (int r = 0; r < 3; ++r) node[velocity + r] *= bulk;
@@ -143,14 +144,19 @@ void ExplicitMpm<Real>::close_pressure(Node& node, double volume, std::span<cons
 }
 
 /// No flow into walls, and friction along them.
+/// @param cut_off  sum V grad w of the points, which is zero where the kernel is whole [m2]
 template <class Real>
-void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, std::span<const WallPlane> planes,
-                                      const Vec3& at, WallImpulses& impulses) const {
+void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, Vec3 cut_off,
+                                      std::span<const WallPlane> planes, const Vec3& at,
+                                      WallImpulses& impulses) const {
   using namespace node_lane;
   const double h = config_.spacing;
   const double m = static_cast<double>(node[mass]);
   const double chi = static_cast<double>(node[near_wall]) / m;
   const bool pressed = node[dilation] < 0;
+  const double density = volume > 0 ? m / volume : config_.fluid.density;
+  const bool no_slip = config_.wall_slip == WallSlip::no_slip;
+  const double viscosity = no_slip ? viscosity_of(density * (1 + static_cast<double>(node[dilation]))) : 0.0;
   Vec3 v = vector_at(node, velocity) + vector_at(node, change);
   const Vec3 before = v;
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -167,11 +173,15 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, std::span<const
     }
     const Vec3 sliding = v - surface - (v - surface).dot(plane.normal) * plane.normal;
     double kept = 1;
-    if (config_.wall_slip == WallSlip::no_slip) {
-      kept = 1 - hold;
+    if (no_slip) {
+      // The points' stress lacks what lies beyond the wall: the wall's traction mu u / distance closes it, so
+      // that linear shear stays as it is. Implicit, so never beyond rest.
+      const double cn = std::max(0.0, cut_off.dot(plane.normal));
+      cut_off -= cn * plane.normal;
+      const double arm = std::max(0.0, plane.distance - h * plane.normal.dot(node_offset));
+      kept = arm > 0 ? arm / (arm + step_.dt * chi * viscosity * cn / m) : 0.0;
     } else if (config_.wall_slip == WallSlip::turbulent_film) {
       // Stress rho f/8 |u| u on the wall area that this node stands for; implicit, so never beyond rest.
-      const double density = volume > 0 ? m / volume : config_.fluid.density;
       const double rate =
           density * config_.film_friction / 8 * h * h * film_share(s, volume / (h * h * h)) / m;
       kept = 1 / (1 + chi * rate * step_.dt * sliding.norm());

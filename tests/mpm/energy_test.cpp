@@ -123,7 +123,7 @@ Highest spray_into_wedge(double per_cell, double speed, WallSlip slip) {
 
 TEST(Energy, OfASprayIntoAClosedWedgeDoesNotGrow) {
   const double speed = 19;
-  for (const WallSlip slip : {WallSlip::slip, WallSlip::turbulent_film})
+  for (const WallSlip slip : {WallSlip::slip, WallSlip::turbulent_film, WallSlip::no_slip})
     for (const double per_cell : {0.3, 1.0}) {
       const Highest highest = spray_into_wedge(per_cell, speed, slip);
       EXPECT_LT(highest.energy_gain, 1e-4) << per_cell << " points a cell";

@@ -301,12 +301,12 @@ TEST(VoidFraction, LiftsTheLevelByTheRocksVolumeOverTheArea) {
   EXPECT_NEAR((level() - before) / (solids * layer), 1.0, 0.2);
 }
 
-TEST(Belt, CarriesTheWaterOnIt) {
+TEST(Belt, CarriesTheWaterOnItAsAFilmOrNotAtAll) {
   const double h = 0.02, thickness = 4 * h, belt_speed = 2;
   Domain domain = open_box(Vec3(0, 0, -0.1), Vec3(8 * h, thickness, 0.2));
   make_periodic(domain, 0);
   make_periodic(domain, 1);
-  for (const WallSlip slip : {WallSlip::slip, WallSlip::turbulent_film, WallSlip::no_slip}) {
+  for (const WallSlip slip : {WallSlip::slip, WallSlip::turbulent_film}) {
     std::vector<Wall> parts;
     parts.push_back(sheet("belt", 2, 0.0, Vec3(-0.2, -0.2, 0), Vec3(0.4, 0.4, 0)));
     parts[0].surface_velocity = Vec3(belt_speed, 0, 0);
@@ -333,14 +333,12 @@ TEST(Belt, CarriesTheWaterOnIt) {
                 1e-9 * steps * water->total_mass() * (g + belt_speed));
     if (slip == WallSlip::slip) {
       EXPECT_NEAR(speed, 0.0, 1e-3);
-    } else if (slip == WallSlip::turbulent_film) {
+    } else {
       // m du/dt = rho f/8 (U - u)2 over a well-mixed film: U - u = U / (1 + f U t / (8 depth)).
       const double exact = belt_speed - belt_speed / (1 + 0.03 * belt_speed * 1.0 / (8 * depth));
       // The layer at the belt runs ahead of the mean and is dragged less.
       EXPECT_NEAR(speed / exact, 0.8, 0.2);
       EXPECT_GT(load.sliding_energy, 0.0);
-    } else {
-      EXPECT_GT(speed, 0.5 * belt_speed);
     }
   }
 }
