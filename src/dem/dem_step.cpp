@@ -116,6 +116,7 @@ void DemSystem::Implementation::drift(const StepTime& time) {
                              "raise 'steps_per_contact' or check the speeds that enter");
       rocks.x[i] += move;
       if (has_sphere_shape(rocks.shape[i])) {
+        if (!only_spheres) rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
         rotate_sphere(rocks.q[i], rocks.w[i], time.dt);
       } else {
         rotate_freely(rocks.q[i], angular[i], per_inertia[i], time.dt);

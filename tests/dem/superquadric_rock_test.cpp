@@ -33,6 +33,26 @@ TEST(RoundSuperquadric, MovesAsTheSphereItIs) {
   EXPECT_LT((w[0] - w[1]).norm(), 1e-2 * w[0].norm());
 }
 
+TEST(Sphere, MovesAlikeWhetherOrNotTheSceneHasSuperquadrics) {
+  const Walls walls = walls_of(plane_wall(0.3, 5));
+  std::array<Vec3, 2> x, w;
+  for (std::size_t k = 0; k < 2; ++k) {
+    std::vector<RockShape> shapes{make_sphere()};
+    if (k == 1) shapes.push_back(make_superquadric(1.3, 0.8, 4));
+    DemConfig config;
+    config.stiffness_per_size = 4e6;
+    DemSystem dem(config, scene_of({0.4, 0.5, 0}, size, shapes), walls);
+    dem.add({.x = {0, 0, 0.01}, .v = {0.5, 0, 0}, .size = size});
+    dem.add({.x = {0.03, 0.002, 0.012}, .v = {-0.5, 0, 0}, .w = {30, -20, 10}, .size = size});
+    run(dem, 0.05, 4e-6);
+    x[k] = dem.rocks().x[1];
+    w[k] = dem.rocks().w[1];
+  }
+  EXPECT_GT((w[0] - Vec3(30, -20, 10)).norm(), 1);
+  EXPECT_LT((x[0] - x[1]).norm(), 1e-10);
+  EXPECT_LT((w[0] - w[1]).norm(), 1e-9 * w[0].norm());
+}
+
 TEST(Superquadric, ComesToRestOnAPlane) {
   const Walls walls = walls_of(plane_wall(0.3, 7));
   DemSystem dem({}, scene_of({0.3, 0.5, 0.05}, size, {make_superquadric(1.3, 0.8, 4)}), walls);
