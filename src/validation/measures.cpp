@@ -9,6 +9,7 @@
 #include "validation/emitter_flux.h"
 #include "validation/rock_bed_energy.h"
 #include "validation/rock_bounces.h"
+#include "validation/rock_deck.h"
 #include "validation/rock_hertz.h"
 #include "validation/rock_hertz_oblique.h"
 #include "validation/rock_hertz_rebound.h"
@@ -51,6 +52,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"rock_hertz", "rock", made<RockHertz>},
       {"rock_hertz_rebound", "rock", made<RockHertzRebound>},
       {"rock_hertz_oblique", "rock", made<RockHertzOblique>},
+      {"rock_deck", "rock", made<RockDeck>},
       {"rock_hopper", "rock", made<RockHopper>},
       {"water_still", "point", made<WaterStill>},
       {"water_taylor_green", "point", made<WaterTaylorGreen>},
