@@ -17,6 +17,7 @@
 #include "validation/rock_incline.h"
 #include "validation/rock_oblique.h"
 #include "validation/rock_rebound.h"
+#include "validation/rock_repose.h"
 #include "validation/rock_rotation.h"
 #include "validation/rock_slide_to_roll.h"
 #include "validation/rock_stack.h"
@@ -53,6 +54,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"rock_hertz_rebound", "rock", made<RockHertzRebound>},
       {"rock_hertz_oblique", "rock", made<RockHertzOblique>},
       {"rock_deck", "rock", made<RockDeck>},
+      {"rock_repose", "rock", made<RockRepose>},
       {"rock_hopper", "rock", made<RockHopper>},
       {"water_still", "point", made<WaterStill>},
       {"water_taylor_green", "point", made<WaterTaylorGreen>},

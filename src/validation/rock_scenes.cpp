@@ -20,6 +20,7 @@ DemScene scene_of(const RockSetup& setup) {
   scene.materials.pairs.assign(scene.materials.all.size() * scene.materials.all.size(), setup.pair);
   scene.shapes = setup.shapes;
   scene.domain.box = setup.box;
+  scene.domain.low = scene.domain.high = setup.faces;
   scene.gravity = setup.gravity;
   scene.smallest_size = setup.smallest;
   scene.largest_size = setup.largest;

@@ -1,6 +1,7 @@
 #pragma once
 /// Small scenes of rocks for the measures.
 
+#include <array>
 #include <memory>
 #include <vector>
 
@@ -17,8 +18,9 @@ struct RockSetup {
   double tangential_ratio = 2.0 / 7.0;
   EndOfContact end = EndOfContact::no_tension;
   std::vector<RockShape> shapes{make_sphere()};
-  Vec3 gravity = Vec3::Zero();                         ///< [m/s2]
-  Box box{Vec3::Constant(-100), Vec3::Constant(100)};  ///< of the domain, open faces [m]
+  Vec3 gravity = Vec3::Zero();                                    ///< [m/s2]
+  Box box{Vec3::Constant(-100), Vec3::Constant(100)};             ///< of the domain [m]
+  std::array<Face, 3> faces{Face::open, Face::open, Face::open};  ///< of both ends of an axis
 };
 
 /// A DemSystem with its walls and clock.
