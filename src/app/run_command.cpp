@@ -176,7 +176,7 @@ int Run::finish(Outcome outcome, const std::optional<RunManifest::Failure>& fail
   save();
   recorder_->write_frame(*simulation_);
   const double wall = wall_before_ + seconds_since(start_);
-  write_summary(folder_, {source_, *simulation_, built_.rock_rate, wall, warnings_}, outcome, failure);
+  write_summary(folder_, {source_, *simulation_, end_, built_.rock_rate, wall, warnings_}, outcome, failure);
   const SceneView view = simulation_->view();
   write_view(folder_.view(),
              make_view(take_snapshot(view.t, config_.gravity, view.rocks, view.water, *view.walls),
@@ -207,7 +207,7 @@ int Run::go() {
       if (recorder_->checkpoint_due(*simulation_)) {
         save();
         keep_in_memory();
-        write_manifest(folder_.manifest(), make_manifest({source_, *simulation_, built_.rock_rate,
+        write_manifest(folder_.manifest(), make_manifest({source_, *simulation_, end_, built_.rock_rate,
                                                           wall_before_ + seconds_since(start_), warnings_},
                                                          Outcome::running, std::nullopt));
         if (early.reached(*simulation_)) {
