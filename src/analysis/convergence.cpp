@@ -9,7 +9,7 @@ namespace {
 
 constexpr double resolved_times = 3;
 /// A bound on a change tells something where it is at most this share of the value.
-constexpr double telling_share = 0.1;
+constexpr double telling_share = 0.25;
 constexpr double safety = 1.25;  // Roache (1994), three grids
 constexpr double lowest_order = 0.5, highest_order = 3, order_of_schemes = 2;
 

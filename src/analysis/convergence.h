@@ -22,8 +22,8 @@ struct LadderPoint {
 enum class ChangeVerdict {
   resolved,   ///< beyond three times its limits
   changed,    ///< beyond its limits
-  bounded,    ///< not beyond its limits, and these are narrow: at most 10 % of the value
-  too_short,  ///< not beyond its limits, and these are wide: the sampling is too short to tell
+  bounded,    ///< not beyond its limits, and with them it is at most a quarter of the value
+  too_short,  ///< not beyond its limits, and with them more: the sampling is too short to tell
   unknown,    ///< a value or its limits are missing
 };
 /// "resolved", "changed", "bounded", "too_short", "unknown"
