@@ -1,6 +1,6 @@
-/// sluice: run | check | explain | report | validate. What each does is in its own file; here are the command
-/// line and the exit codes: 0 done, 1 a bug, 2 bad input, 3 numerical failure, 4 environment, 5 a validation
-/// case missed its gate, 130 interrupted.
+/// sluice: run | check | explain | report | converge | validate. What each does is in its own file; here are
+/// the command line and the exit codes: 0 done, 1 a bug, 2 bad input, 3 numerical failure, 4 environment, 5 a
+/// validation case missed its gate, 130 interrupted.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   run_command->add_option("--threads", run.threads, "threads [all]")->check(CLI::Range(1, 1024));
   run_command->add_option("--until", run.until, "end at this simulated time, such as '2 s'");
   run_command->add_flag("--resume", run.resume, "go on from the run folder's checkpoint");
+  run_command->add_flag("--no-stop", run.whole, "run to the end, whatever 'stop' says");
   run_command->add_option("--set", run.overrides, "key=value, over the process file; may be repeated");
 
   sluice::CheckOptions check;
@@ -67,6 +68,19 @@ int main(int argc, char** argv) {
   CLI::App* report_command = app.add_subcommand("report", "page of one run; comparison of several");
   report_command->add_option("runs", report.runs, "run folders")->required();
   report_command->add_option("--out", report.out, "comparison page [comparison.html]");
+
+  sluice::ConvergeOptions converge;
+  CLI::App* converge_command = app.add_subcommand(
+      "converge", "run a process over a ladder of one key; what a finer setting changes, and what it costs");
+  converge_command->add_option("process", converge.process, "process file (YAML)")->required();
+  converge_command->add_option("--vary", converge.vary, "key, such as water.spacing")->required();
+  converge_command->add_option("--over", converge.over, "settings, coarse to fine: '40 mm, 20 mm'")
+      ->required();
+  converge_command->add_option("--out", converge.out, "folder of the runs and the page [out/NAME-KEY]");
+  converge_command->add_option("--threads", converge.threads, "threads [all]")->check(CLI::Range(1, 1024));
+  converge_command->add_option("--until", converge.until, "end every run at this simulated time");
+  converge_command->add_option("--set", converge.overrides,
+                               "key=value, over the process file; may be repeated");
 
   sluice::ValidateOptions validate;
   CLI::App* validate_command =
@@ -89,7 +103,8 @@ int main(int argc, char** argv) {
   } catch (const CLI::RequiredError& e) {
     // CLI11 says only that a command is required, also where one was misspelt.
     if (argc > 1 && app.get_subcommands().empty())
-      std::fprintf(stderr, "'%s' is not a command (there are run, check, explain, report and validate)\n",
+      std::fprintf(stderr,
+                   "'%s' is not a command (there are run, check, explain, report, converge and validate)\n",
                    argv[1]);
     app.exit(e);
     return 2;
@@ -102,6 +117,7 @@ int main(int argc, char** argv) {
     if (run_command->parsed()) return sluice::run_process(run);
     if (check_command->parsed()) return sluice::check_process(check);
     if (explain_command->parsed()) return sluice::explain_keys(explain);
+    if (converge_command->parsed()) return sluice::converge_process(converge);
     if (validate_command->parsed()) return sluice::validate_cases(validate);
     return sluice::report_runs(report);
   });

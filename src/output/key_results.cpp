@@ -50,8 +50,8 @@ constexpr std::array<FigureWords, 11> column_endings = {
      {"_fines_kg", "fines inside", "kg", 1, false},
      {"_kinetic_J", "kinetic energy", "J", 1, false},
      {"_inside_kg", "inside", "kg", 1, false},
-     {"_Pa", "pressure", "kPa", 1e-3, true},
-     {"_m", "level", "m", 1, true},
+     {"_Pa", "", "kPa", 1e-3, true},
+     {"_m", "", "m", 1, true},
      {"", "", "", 1, false}}};
 
 /// Columns that count or follow from the exits.
@@ -111,7 +111,7 @@ KeyResult series_result(const std::string& column, const std::vector<double>& ti
   std::string name = column.substr(0, column.size() - std::string(ending->name).size());
   std::replace(name.begin(), name.end(), '_', ' ');
   r.name = column;
-  r.what = *ending->words ? name + ": " + ending->words : name;
+  r.what = *ending->words && !name.empty() ? name + ": " + ending->words : name + ending->words;
   r.shown_unit = ending->unit;
   r.factor = ending->factor;
   r.headline = ending->headline;
