@@ -27,6 +27,7 @@ int check_process(const CheckOptions& options);
 struct ExplainOptions {
   std::string key;
   bool schema = false;
+  bool study = false;  ///< keys of a study instead of a process
 };
 int explain_keys(const ExplainOptions& options);
 
@@ -47,6 +48,16 @@ struct ConvergeOptions {
   std::vector<std::string> overrides;
 };
 int converge_process(const ConvergeOptions& options);
+
+/// A process x variations.
+struct StudyOptions {
+  std::filesystem::path study;
+  std::filesystem::path out;  ///< empty: out/ + the study file's stem
+  int threads = 0;            ///< 0: all
+  std::string until;          ///< with unit; empty: as the study says
+  std::vector<std::string> overrides;
+};
+int run_study(const StudyOptions& options);
 
 /// Textbook cases of `validation/`, up their ladders.
 struct ValidateOptions {
