@@ -115,15 +115,10 @@ void DemSystem::Implementation::drift(const StepTime& time) {
                                          move.norm() / (0.5 * rocks.size[i]), longest_move),
                              "raise 'steps_per_contact' or check the speeds that enter");
       rocks.x[i] += move;
-      if (has_sphere_shape(rocks.shape[i])) {
-        if (!only_spheres) rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
-        rotate_sphere(rocks.q[i], rocks.w[i], time.dt);
-      } else {
-        rotate_freely(rocks.q[i], angular[i], per_inertia[i], time.dt);
-        rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
-      }
       if (!only_spheres) {
         const RockShape& shape = shape_of(i);
+        if (!shape.is_sphere()) rotate_freely(rocks.q[i], angular[i], per_inertia[i], time.dt);
+        rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
         turned_shapes[i] = {rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
         rim_speed[i] = rotation_margin * rocks.w[i].norm() * rocks.radius[i];
       }

@@ -51,13 +51,4 @@ inline void rotate_freely(Quat& q, const Vec3& l, const Vec3& per_inertia, doubl
   q.normalize();
 }
 
-/// The same for a sphere, whose angular velocity is constant: one turn about it.
-inline void rotate_sphere(Quat& q, const Vec3& w, double dt) {
-  // Cayley's map: second order, no trigonometry; how a sphere has turned is only ever looked at.
-  const Vec3 half = 0.5 * dt * w;
-  const Quat about(1, half.x(), half.y(), half.z());
-  q = about * q;
-  q.normalize();
-}
-
 }  // namespace sluice
