@@ -109,6 +109,33 @@ TEST(ManySpheres, GiveTheSameBitsWithAnyNumberOfThreads) {
   set_thread_count(threads);
 }
 
+TEST(SeveralSteps, GiveTheBitsOfOneAfterTheOther) {
+  for (const int shapes : {1, 2}) {
+    const Walls walls = walls_of(plane_wall(1, 3));
+    DemScene scene = scene_of({0.3, 0.5, 0.05}, 0.02, {make_sphere(), make_superquadric(1.5, 0.8, 8)});
+    if (shapes == 1) scene.shapes.pop_back();
+    scene.smallest_size = 0.01;
+    DemSystem alone({}, scene, walls), together({}, scene, walls);
+    for (DemSystem* dem : {&alone, &together})
+      fill_block(*dem, 9, Vec3(-0.1, -0.1, 0), 0.01, 0.02, 8, 5, shapes);
+    const double dt = alone.step_size();
+    for (int k = 0; k < 300; ++k) {
+      if (k % 7 == 0) together.steps(k * dt, dt, std::min(7, 300 - k));
+      alone.step(k * dt, dt);
+    }
+    EXPECT_GT(alone.overlap_max(), 0.1);
+    EXPECT_EQ(alone.state_hash(), together.state_hash());
+    EXPECT_EQ(alone.energy().kinetic, together.energy().kinetic);
+    EXPECT_EQ(alone.energy().dissipated_friction, together.energy().dissipated_friction);
+    EXPECT_EQ(alone.wall_loads()[0].impulse, together.wall_loads()[0].impulse);
+  }
+}
+
+TEST(StepOfNoTime, IsRefused) {
+  DemSystem dem({}, scene_of({0.3, 0.5, 0}, 0.02), walls_of(plane_wall(1, 3)));
+  for (const double dt : {0.0, -1e-5, std::nan("")}) EXPECT_THROW(dem.step(0, dt), std::invalid_argument);
+}
+
 TEST(StateExchange, ContinuesBitForBit) {
   const Walls walls = walls_of(plane_wall(1, 3));
   DemScene scene = scene_of({0.3, 0.5, 0.05}, 0.02, {make_sphere(), make_superquadric(1.5, 0.8, 3)});
