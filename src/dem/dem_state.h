@@ -110,7 +110,9 @@ struct DemSystem::Implementation {
   Implementation(const DemConfig& config, DemScene scene, const Walls& walls);
 
   static constexpr std::size_t chunk_length = PairList::rocks_per_chunk;
-  static constexpr double most_margin = 0.3;  ///< of the bounding radius: how far a rock goes on one list
+  // How far a rock may go before the pairs are listed again, of its bounding radius; beside periodic faces at
+  // most so far that it cannot reach another one twice.
+  static constexpr double least_margin = 0.03, most_margin = 0.3;
 
   DemConfig config;
   DemScene scene;

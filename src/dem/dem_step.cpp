@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/errors.h"
 #include "base/parallel.h"
@@ -14,10 +15,7 @@ namespace {
 constexpr std::uint64_t steps_per_sample = 100;
 constexpr double longest_move = 0.5;  // of the radius in one step: beyond it contacts would be missed
 
-// How far a rock may go before the pairs are listed again: what it does in this many steps, but at least and
-// at most so much of its bounding radius.
-constexpr double steps_per_list = 200;
-constexpr double least_margin = 0.03;
+constexpr double steps_per_list = 200;  // a rock may go as far as it does in so many on one list
 constexpr std::uint64_t lists_per_sort = 8;
 }  // namespace
 
@@ -152,10 +150,13 @@ void DemSystem::Implementation::list_pairs(double dt) {
   if (count() > chunk_length && lists % lists_per_sort == 0) sort_in_space();
   ++lists;
   std::vector<double> reach(count());
+  double most_reach = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k)
+    if (scene.domain.periodic(k)) most_reach = std::min(most_reach, 0.25 * scene.domain.box.size()[k]);
   parallel_for(count(), [&](std::size_t i) {
-    const double radius = rocks.radius[i];
-    margin[i] =
-        std::clamp(steps_per_list * dt * rocks.v[i].norm(), least_margin * radius, most_margin * radius);
+    const double radius = rocks.radius[i], least = least_margin * radius;
+    const double most = std::max(least, std::min(most_margin * radius, most_reach - radius));
+    margin[i] = std::clamp(steps_per_list * dt * rocks.v[i].norm(), least, most);
     reach[i] = radius + margin[i];
   });
   std::vector<std::uint8_t> blocky(has_blocky ? count() : 0);

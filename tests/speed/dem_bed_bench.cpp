@@ -43,7 +43,9 @@ void BedBench::follow() {
 
 void BedBench::set_up() {
   const Bed bed = make_bed(recipe_);
-  dem_ = std::make_unique<DemSystem>(config_of_beds(), scene_of(bed), none_);
+  DemConfig config = config_of_beds();
+  config.overlap_limit = recipe_.overlap_limit;
+  dem_ = std::make_unique<DemSystem>(config, scene_of(bed), none_);
   add_rocks(bed, *dem_);
   follow();
   for (int k = followed_steps; k < warm_steps; ++k) step();
