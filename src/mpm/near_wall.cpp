@@ -42,14 +42,14 @@ int tile_index(int local, int node) {
 
 template <class Real>
 void ExplicitMpm<Real>::scatter_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil,
-                                          Node (&a)[4], Node* tile, WallImpulses& impulses) const {
+                                          Contribution& a, Node* tile, WallImpulses& impulses) const {
   const Vec3i base = layout_.cell_of(cell_key) - Vec3i::Ones();
   const Vec3 x = position(p.x, cell_key);
   Visibility seen;
   field_->visibility(stencil, base, x, seen);
   WallPlane planes[most_planes];
   const int plane_count = field_->planes_of_point(stencil, x, planes, most_planes);
-  if (plane_count > 0) a[0][node_lane::near_wall] = p.mass;
+  if (plane_count > 0) a.middle[node_lane::near_wall] = p.mass();
 
   const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
   const int local = cell_key & 63;
@@ -58,13 +58,15 @@ void ExplicitMpm<Real>::scatter_near_wall(const Point& p, std::int32_t cell_key,
     const Real w = wx.w[i] * wy.w[j] * wz.w[k];
     Node lanes;
     for (int r = 0; r < Node::registers; ++r)
-      lanes.part[r] = a[0].part[r] + wx.d[i] * a[1].part[r] + wy.d[j] * a[2].part[r] + wz.d[k] * a[3].part[r];
+      lanes.part[r] = a.middle.part[r] + static_cast<Real>(i - 1) * a.slope[0].part[r] +
+                      static_cast<Real>(j - 1) * a.slope[1].part[r] +
+                      static_cast<Real>(k - 1) * a.slope[2].part[r];
     if (!(seen.hidden >> n & 1)) {
       tile[tile_index(local, n)].add_scaled(w, lanes);
       continue;
     }
     // The wall takes the stress and the weight that the hidden node would have carried.
-    Vec3 impulse = step_.dt * static_cast<double>(p.mass) * gravity_;
+    Vec3 impulse = step_.dt * static_cast<double>(p.mass()) * gravity_;
     for (int r = 0; r < 3; ++r) impulse[r] += static_cast<double>(lanes[node_lane::change + r]);
     const Vec3 to_node = config_.spacing * (Vec3(wx.d[i], wy.d[j], wz.d[k]) + node_offset);
     const Vec3i node = base + Vec3i(i, j, k);
@@ -89,7 +91,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
 
   // All of C is taken anew: nothing damps the rest here, and in a wedge it would feed back through mirrored
   // nodes.
-  for (Real& kept : g.kept) kept = 0;
+  g.knows_all = true;
   const double h = config_.spacing;
   const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
   Node sum, sum_axis[3];
@@ -116,7 +118,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   const Real per_weight = weight > 0 ? 1 / weight : Real(0);
   g.bulk = sum[node_lane::mass];
   g.fill = sum[fill] * per_weight;
-  g.dilation = weight > 0 ? sum[dilation] * per_weight : p.dilation;
+  g.dilation = weight > 0 ? sum[dilation] * per_weight : p.dilation();
   g.least_fill = weight > 0 ? least : Real(0);
   const double mean_bulk = static_cast<double>(g.bulk * per_weight);
   Vec3 mean_change = step_.dt * gravity_;
@@ -127,7 +129,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     g.centre[r] = (sum[centre + r] + weight_moment[r]) * per_weight;
     g.bulk_moment[r] = sum_axis[r][node_lane::mass];
     g.fill_moment[r] = sum_axis[r][fill] - g.fill * weight_moment[r];
-    for (int c = 0; c < 3; ++c) g.moment[3 * r + c] = sum_axis[c][change + r] + sum_axis[c][velocity + r];
+    for (int c = 0; c < 3; ++c) g.moment[c][r] = sum_axis[c][change + r] + sum_axis[c][velocity + r];
     const Real trust = std::min(Real(1), weight / Real(enough_seen));
     mean_change[r] = (1 - static_cast<double>(trust)) * mean_change[r] +
                      static_cast<double>(sum[change + r] / std::max(weight, Real(enough_seen)));
@@ -138,7 +140,8 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   const int plane_count = field_->planes_of_point(stencil, x, planes, most_planes);
   const Vec3 v(p.v[0], p.v[1], p.v[2]);
   Mat3 C;
-  for (int r = 0; r < 9; ++r) C(r / 3, r % 3) = static_cast<double>(p.C[r]);
+  for (int r = 0; r < 3; ++r)
+    for (int c = 0; c < 3; ++c) C(r, c) = static_cast<double>(p.C[c][r]);
   const double share = static_cast<double>(step_.relax_velocity) * mean_bulk;
   for (int n = 0; n < 27; ++n) {
     if (!(seen.hidden >> n & 1)) continue;
@@ -152,7 +155,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
       // Sides are decided where nodes count as being, as in visibility(): a node on the plane has one.
       if (plane.normal.dot(mirrored + h * node_offset) <= plane.distance) continue;
       const double beyond = plane.normal.dot(mirrored) - plane.distance;
-      if (p.dilation >= 0 && v.dot(plane.normal) < 0) continue;  // leaves the wall, nothing holds it
+      if (p.dilation() >= 0 && v.dot(plane.normal) < 0) continue;  // leaves the wall, nothing holds it
       mirrored -= 2 * beyond * plane.normal;
       used[used_count++] = q;
     }
@@ -172,22 +175,22 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
       g.change[r] += static_cast<Real>(w * ghost_change[r]);
       g.velocity[r] += static_cast<Real>(w * mean_bulk * ghost[r]);
       g.bulk_moment[r] += static_cast<Real>(w * mean_bulk * d[r]);
-      for (int c = 0; c < 3; ++c) g.moment[3 * r + c] += static_cast<Real>(w * whole * d[c]);
+      for (int c = 0; c < 3; ++c) g.moment[c][r] += static_cast<Real>(w * whole * d[c]);
     }
     g.bulk += static_cast<Real>(w * mean_bulk);
     const Vec3 given = ghost_change + share * (ghost - v - h * (C * d));
     const Vec3i node = base + Vec3i(i, j, k);
-    share_out({-static_cast<double>(p.mass) * w * given, layout_.node_position(node), hiding_wall(seen, n)},
+    share_out({-static_cast<double>(p.mass()) * w * given, layout_.node_position(node), hiding_wall(seen, n)},
               h * (d + node_offset), {planes, static_cast<std::size_t>(plane_count)}, impulses);
   }
 }
 
 /// No path crosses a wall: the point stops at the first one that its path meets.
 template <class Real>
-void ExplicitMpm<Real>::stop_at_walls(Point& p, std::int32_t cell_key, std::int32_t stencil,
-                                      WallImpulses& impulses) const {
+void ExplicitMpm<Real>::stop_at_walls(Point& p, const Place& before, std::int32_t cell_key,
+                                      std::int32_t stencil, WallImpulses& impulses) const {
   const double h = config_.spacing;
-  const Vec3 start = position(p.before, cell_key);
+  const Vec3 start = position(before, cell_key);
   const Vec3 corner = layout_.node_position(layout_.cell_of(cell_key));
   for (int hits = 0; hits <= most_path_hits; ++hits) {
     const auto hit = field_->first_hit(stencil, start, position(p.x, cell_key));
@@ -197,24 +200,26 @@ void ExplicitMpm<Real>::stop_at_walls(Point& p, std::int32_t cell_key, std::int3
     const double inward = v.dot(hit->normal);
     if (inward < 0) {
       for (int r = 0; r < 3; ++r) p.v[r] -= static_cast<Real>(inward * hit->normal[r]);
-      impulses.add(hit->wall, static_cast<double>(p.mass) * inward * hit->normal, hit->point);
-      impulses.add_impact(hit->wall, 0.5 * static_cast<double>(p.mass) * inward * inward);
+      impulses.add(hit->wall, static_cast<double>(p.mass()) * inward * hit->normal, hit->point);
+      impulses.add_impact(hit->wall, 0.5 * static_cast<double>(p.mass()) * inward * inward);
     }
     const Vec3 stopped = (hit->point + stand_off * h * hit->normal - corner) / h;
     for (int r = 0; r < 3; ++r) p.x[r] = quantised(static_cast<Real>(stopped[r]));
   }
-  for (int r = 0; r < 3; ++r) p.x[r] = p.before[r];
+  for (int r = 0; r < 3; ++r) p.x[r] = before[static_cast<std::size_t>(r)];
 }
 
-template void ExplicitMpm<float>::scatter_near_wall(const Point&, std::int32_t, std::int32_t, Node (&)[4],
+template void ExplicitMpm<float>::scatter_near_wall(const Point&, std::int32_t, std::int32_t, Contribution&,
                                                     Node*, WallImpulses&) const;
 template void ExplicitMpm<float>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
                                                    Gathered&, WallImpulses&) const;
-template void ExplicitMpm<float>::stop_at_walls(Point&, std::int32_t, std::int32_t, WallImpulses&) const;
-template void ExplicitMpm<double>::scatter_near_wall(const Point&, std::int32_t, std::int32_t, Node (&)[4],
+template void ExplicitMpm<float>::stop_at_walls(Point&, const Place&, std::int32_t, std::int32_t,
+                                                WallImpulses&) const;
+template void ExplicitMpm<double>::scatter_near_wall(const Point&, std::int32_t, std::int32_t, Contribution&,
                                                      Node*, WallImpulses&) const;
 template void ExplicitMpm<double>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
                                                     Gathered&, WallImpulses&) const;
-template void ExplicitMpm<double>::stop_at_walls(Point&, std::int32_t, std::int32_t, WallImpulses&) const;
+template void ExplicitMpm<double>::stop_at_walls(Point&, const Place&, std::int32_t, std::int32_t,
+                                                 WallImpulses&) const;
 
 }  // namespace sluice

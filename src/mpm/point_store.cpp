@@ -32,7 +32,7 @@ PointStore<Real>::PointStore(const BlockLayout& layout)
     : layout_(&layout),
       bin_begin_{0},
       index_of_block_(static_cast<std::size_t>(layout.block_count()), BlockLayout::none) {
-  static_assert(sizeof(Point) == 24 * sizeof(Real));
+  static_assert(sizeof(Point) == 20 * sizeof(Real));
   for (int local = 0; local < 64; ++local)
     reach_of_cell_[static_cast<std::size_t>(local)] = reach_of(local, Vec3i::Constant(BlockLayout::edge));
 }
@@ -42,6 +42,7 @@ void PointStore<Real>::add(const Point& point, std::int32_t cell_key, std::uint6
                            double point_mass, double point_fines) {
   if (point_fines != 0 && fines.empty()) fines.assign(points.size(), 0.0);
   points.push_back(point);
+  before.push_back({point.x[0], point.x[1], point.x[2]});
   key.push_back(cell_key);
   id.push_back(point_id);
   mass.push_back(point_mass);
@@ -136,6 +137,20 @@ void PointStore<Real>::list_strays() {
 }
 
 template <class Real>
+void PointStore<Real>::order_by_cell(const PointBlock& block, CellOrder& out) const {
+  std::array<std::uint32_t, BlockLayout::nodes> count{};
+  for_each(block, [&](std::uint32_t slot) { ++count[static_cast<std::size_t>(key[slot] & 63)]; });
+  out.begin[0] = 0;
+  for (std::size_t c = 0; c < count.size(); ++c) {
+    out.begin[c + 1] = out.begin[c] + count[c];
+    count[c] = out.begin[c];
+  }
+  out.slot.resize(out.begin.back());
+  for_each(block,
+           [&](std::uint32_t slot) { out.slot[count[static_cast<std::size_t>(key[slot] & 63)]++] = slot; });
+}
+
+template <class Real>
 void PointStore<Real>::sort() {
   // Blocks in ascending order, each with its residents and strays counted.
   list_strays();
@@ -178,6 +193,7 @@ void PointStore<Real>::sort() {
     column.swap(spare);
   };
   reorder(points, spare_points_);
+  reorder(before, spare_before_);
   reorder(key, spare_key_);
   reorder(id, spare_id_);
   reorder(mass, spare_column_);
@@ -193,14 +209,16 @@ std::size_t PointStore<Real>::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t strays = 0;
   for (const auto& list : strays_of_bin_) strays += bytes(list);
-  return bytes(points) + bytes(key) + bytes(id) + bytes(mass) + bytes(fines) + bytes(spare_points_) +
-         bytes(spare_key_) + bytes(spare_id_) + bytes(spare_column_) + bytes(strays_) + bytes(place_) +
-         strays + bytes(blocks_) + bytes(index_of_block_) + bytes(bin_block_) + bytes(bin_begin_);
+  return bytes(points) + bytes(before) + bytes(key) + bytes(id) + bytes(mass) + bytes(fines) +
+         bytes(spare_points_) + bytes(spare_before_) + bytes(spare_key_) + bytes(spare_id_) +
+         bytes(spare_column_) + bytes(strays_) + bytes(place_) + strays + bytes(blocks_) +
+         bytes(index_of_block_) + bytes(bin_block_) + bytes(bin_begin_);
 }
 
 template <class Real>
 void PointStore<Real>::exchange(StateArchive& archive) {
   archive.values("points", points);
+  archive.values("before", before);
   archive.values("key", key);
   archive.values("id", id);
   archive.values("mass", mass);

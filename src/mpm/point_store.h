@@ -11,22 +11,24 @@
 
 #include "base/state_archive.h"
 #include "mpm/block_layout.h"
+#include "mpm/quads.h"
 
 namespace sluice {
 
-/// What a step reads and writes of one point.
+/// What a step reads and writes of one point. The fourth numbers of the quads hold what else belongs to it.
 template <class Real>
 struct MaterialPoint {
-  Real x[3];           ///< from the nearest node [cells], -0.5..0.5, a multiple of the position quantum
-  Real before[3];      ///< same, at the start of the last step, from the nearest node of now [cells]
-  Real v[3];           ///< [m/s]
-  Real dilation;       ///< J - 1: keeps its digits where J is nearly 1
-  Real C[9];           ///< affine velocity, row-major: C[3 r + c] = d v_r / d x_c [1/s]
-  Real mass;           ///< [kg]
-  Real volume;         ///< at rest [m3]
-  Real viscosity;      ///< [Pa s]
-  Real void_fraction;  ///< of the mixture around it, 1 without rocks
-  Real fill;           ///< water per space open to it, at the last step
+  Quad<Real> x{};     ///< from the nearest node [cells], -0.5..0.5, multiples of the position quantum; J - 1
+  Quad<Real> v{};     ///< [m/s]; mass [kg]
+  Quad<Real> C[3]{};  ///< affine velocity by columns: C[c][r] = d v_r / d x_c [1/s]; volume, viscosity, void
+
+  /// J - 1: keeps its digits where J is nearly 1.
+  Real dilation() const { return x[3]; }
+  Real mass() const { return v[3]; }          ///< [kg]
+  Real volume() const { return C[0][3]; }     ///< at rest [m3]
+  Real viscosity() const { return C[1][3]; }  ///< [Pa s]
+  /// Of the mixture around it, 1 without rocks.
+  Real void_fraction() const { return C[2][3]; }
 };
 
 /// Rounds a position to the quantum, a multiple of 2^-22 cells in float: changing cells is then exact.
@@ -35,11 +37,15 @@ template <class Real>
 Real quantised(Real x) {
   return (x + Real(3)) - Real(3);
 }
+template <class Real>
+Quad<Real> quantised(Quad<Real> x) {
+  return (x + Real(3)) - Real(3);
+}
 
 template <class Real>
 struct StateTraits<MaterialPoint<Real>> {
   static constexpr Scalar scalar = StateTraits<Real>::scalar;
-  static constexpr std::size_t count = 24;
+  static constexpr std::size_t count = 20;
 };
 
 /// A block with points: residents [begin, end) of the store, then strays [stray_begin, stray_end) of the
@@ -52,10 +58,22 @@ struct PointBlock {
   std::uint32_t count() const { return end - begin + stray_end - stray_begin; }
 };
 
+/// The points of a block by cell, and in the fixed order within a cell.
+struct CellOrder {
+  std::array<std::uint32_t, BlockLayout::nodes + 1> begin{};  ///< of each cell's points in `slot`
+  std::vector<std::uint32_t> slot;
+
+  std::span<const std::uint32_t> of_cell(int local) const {
+    const auto c = static_cast<std::size_t>(local);
+    return {slot.data() + begin[c], begin[c + 1] - begin[c]};
+  }
+};
+
 template <class Real>
 class PointStore {
  public:
   using Point = MaterialPoint<Real>;
+  using Place = std::array<Real, 3>;
 
   explicit PointStore(const BlockLayout& layout);
 
@@ -90,10 +108,13 @@ class PointStore {
     }
   }
 
+  void order_by_cell(const PointBlock& block, CellOrder& out) const;
+
   std::size_t memory_bytes() const;
   void exchange(StateArchive& archive);
 
   std::vector<Point> points;
+  std::vector<Place> before;      ///< at the start of the last step, from the nearest node of now [cells]
   std::vector<std::int32_t> key;  ///< cell, `none` for a removed point
   std::vector<std::uint64_t> id;
   std::vector<double> mass;   ///< as it came in [kg]
@@ -117,6 +138,7 @@ class PointStore {
   std::vector<std::uint32_t> reach_of_bin_;
   std::vector<std::uint32_t> place_;
   std::vector<Point> spare_points_;
+  std::vector<Place> spare_before_;
   std::vector<std::int32_t> spare_key_;
   std::vector<std::uint64_t> spare_id_;
   std::vector<double> spare_column_;

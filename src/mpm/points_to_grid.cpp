@@ -15,7 +15,7 @@ constexpr double least_node_mass = 1e-30;
 template <class Real>
 void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   step_.t = t;
-  step_.dt = dt;
+  share_step(dt);
   const double h = config_.spacing;
   const double g = gravity_.norm();
   // Time constants in the grid's acoustic time h/c, and of the anchor in the wave time of the depth: where
@@ -35,8 +35,9 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   if (impulses_.size() < std::max(blocks, grid_.active().size()))
     impulses_.resize(std::max(blocks, grid_.active().size()));
   reports_.resize(blocks);
-  parallel_for(
-      blocks, [&](std::size_t b) { scatter_block(b); }, 1);
+  parallel_chunks_with(
+      scatter_scratch_, blocks, 1,
+      [&](ScatterScratch& scratch, std::size_t, std::size_t b, std::size_t) { scatter_block(b, scratch); });
   if (field_) pour_loads(blocks);
   double mass = 0;
   for (const BlockReport& r : reports_) mass += r.mass;
@@ -54,6 +55,19 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
       4);
   for (std::size_t b = 0; b < active.size(); ++b) node_begin_[b + 1] += node_begin_[b];
   impulse_.clear();
+}
+
+template <class Real>
+void ExplicitMpm<Real>::share_step(double dt) {
+  const double h = config_.spacing, c2 = sound_speed_ * sound_speed_;
+  step_.dt = dt;
+  step_.dt_real = static_cast<Real>(dt);
+  step_.h = static_cast<Real>(h);
+  step_.per_h = static_cast<Real>(4 / h);
+  step_.c2 = static_cast<Real>(c2);
+  step_.stress = static_cast<Real>(4 / h * dt);
+  step_.cells_per_speed = static_cast<Real>(dt / h);
+  step_.dilation_per_speed = static_cast<Real>(h / (dt * c2));
 }
 
 template <class Real>
@@ -79,68 +93,99 @@ void ExplicitMpm<Real>::pour_loads(std::size_t lists) {
   }
 }
 
-/// Writes the lanes of a point's contribution: w (constant + sum slope_c d_c), d in cells.
+/// At a node whose distance is d cells, a point gives w times its momentum m (v + C h d), its stress, and so
+/// on.
 template <class Real>
-void ExplicitMpm<Real>::contribution(const Point& p, Node (&a)[4]) const {
-  for (Node& lanes : a) lanes.clear();
-  const Real h = static_cast<Real>(config_.spacing);
-  const Real strength = static_cast<Real>(4.0 / config_.spacing * step_.dt);
-  const Real volume = p.volume * (1 + p.dilation) / p.void_fraction;
-  const Real c2 = static_cast<Real>(sound_speed_ * sound_speed_);
+void ExplicitMpm<Real>::contribute(const Point& p, Contribution& a) const {
+  const Real m = p.mass(), e = p.dilation(), per_void = has_void_ ? 1 / p.void_fraction() : Real(1);
+  const Real now = p.volume() * (1 + e), volume = now * per_void;
+  const Vector C[3] = {with_fourth(p.C[0], Real(0)), with_fourth(p.C[1], Real(0)),
+                       with_fourth(p.C[2], Real(0))};
+  const Real drag = step_.stress * volume * p.viscosity();
   // V p = -m c2 (J - 1): the volume cancels in p = (m / V0) c2 (1/J - 1).
-  const Real push = -strength * p.mass * c2 * p.dilation / p.void_fraction;
-  const Real drag = strength * volume * p.viscosity;
-  const Real third = (p.C[0] + p.C[4] + p.C[8]) * Real(2.0 / 3.0);
-  for (int r = 0; r < 3; ++r) {
-    a[0][node_lane::velocity + r] = p.mass * p.v[r];
-    for (int c = 0; c < 3; ++c) {
-      a[1 + c][node_lane::velocity + r] = p.mass * h * p.C[3 * r + c];
-      a[1 + c][node_lane::change + r] = -drag * (p.C[3 * r + c] + p.C[3 * c + r]);
-    }
-    a[1 + r][node_lane::change + r] += push + drag * third;
-    a[1 + r][node_lane::centre + r] = -p.mass;
-    a[1 + r][node_lane::gradient + r] = static_cast<Real>(4.0 / config_.spacing) * volume;
+  const Real push =
+      -step_.stress * m * step_.c2 * e * per_void + drag * (C[0][0] + C[1][1] + C[2][2]) * Real(2.0 / 3.0);
+
+  Vector momentum = m * p.v, impulse{};
+  for (int c = 0; c < 3; ++c) {
+    const Vector row = {C[0][c], C[1][c], C[2][c], 0};
+    Vector unit{};
+    unit[c] = 1;
+    const Vector spin = m * step_.h * C[c], stress = push * unit - drag * (C[c] + row);
+    momentum -= p.x[c] * spin;
+    impulse -= p.x[c] * stress;
+    a.slope[c].quad(0) = spin;
+    a.slope[c].quad(1) = stress;
+    a.slope[c].quad(2) = -m * unit;
+    a.slope[c].quad(3) = step_.per_h * volume * unit;
   }
-  a[0][node_lane::mass] = p.mass;
-  a[0][node_lane::fill] = p.volume * (1 + p.dilation);
-  a[0][node_lane::dilation] = p.mass * p.dilation;
+  a.middle.quad(0) = with_fourth(momentum, m);
+  a.middle.quad(1) = with_fourth(impulse, now);
+  a.middle.quad(2) = m * p.x;
+  a.middle.quad(3) = with_fourth(-step_.per_h * volume * p.x, Real(0));
+
+  const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
+  const Vector along = {x.w[0], x.w[1], x.w[2], 0};
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j) a.weight[j + 3 * k] = y.w[j] * z.w[k] * along;
 }
 
 template <class Real>
-void ExplicitMpm<Real>::scatter_block(std::size_t index) {
+void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch) {
   const PointBlock& block = store_.blocks()[index];
   Node* tile = &tiles_[index * BlockLayout::tile_nodes];
   for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile[n].clear();
   const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
+  store_.order_by_cell(block, scratch.order);
   double mass = 0;
-  store_.for_each(block, [&](std::uint32_t slot) {
-    const Point& p = store_.points[slot];
-    const int local = store_.key[slot] & 63;
-    mass += static_cast<double>(p.mass);
-    Node a[4];
-    contribution(p, a);
-    if (stencil[local] >= 0) {
-      scatter_near_wall(p, store_.key[slot], stencil[local], a, tile, impulses_[index]);
-      return;
+  for (const std::uint32_t slot : scratch.order.slot) mass += static_cast<double>(store_.points[slot].mass());
+  for (int local = 0; local < BlockLayout::nodes; ++local) {
+    const std::span<const std::uint32_t> slots = scratch.order.of_cell(local);
+    if (stencil[local] < 0) {
+      scatter_cell(slots, tile + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4), scratch);
+      continue;
     }
-    Node* corner = tile + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
-    const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
-    Node along[3];
-    for (int i = 0; i < 3; ++i) along[i].set_sum(a[0], x.d[i], a[1]);
-    for (int k = 0; k < 3; ++k)
-      for (int j = 0; j < 3; ++j) {
-        Node cross;
-        const Real w = y.w[j] * z.w[k];
-        for (int r = 0; r < Node::registers; ++r)
-          cross.part[r] = y.d[j] * a[2].part[r] + z.d[k] * a[3].part[r];
-        Node* row = corner + 6 * j + 36 * k;
-        for (int i = 0; i < 3; ++i) {
-          const Real wi = w * x.w[i];
-          for (int r = 0; r < Node::registers; ++r) row[i].part[r] += wi * (along[i].part[r] + cross.part[r]);
-        }
-      }
-  });
+    for (const std::uint32_t slot : slots) {
+      contribute(store_.points[slot], scratch.point[0]);
+      scatter_near_wall(store_.points[slot], store_.key[slot], stencil[local], scratch.point[0], tile,
+                        impulses_[index]);
+    }
+  }
   reports_[index].mass = mass;
+}
+
+/// Adds the points of one cell: nodes stay in registers, nine at a time, while the points pass.
+template <class Real>
+void ExplicitMpm<Real>::scatter_cell(std::span<const std::uint32_t> slots, Node* corner,
+                                     ScatterScratch& scratch) const {
+  while (!slots.empty()) {
+    const std::size_t count = std::min<std::size_t>(slots.size(), ScatterScratch::batch);
+    for (std::size_t n = 0; n < count; ++n) contribute(store_.points[slots[n]], scratch.point[n]);
+    slots = slots.subspan(count);
+    for (int r = 0; r < Node::registers; ++r)
+      for (int k = 0; k < 3; ++k) {
+        typename Node::Register sum[9];
+        for (int n = 0; n < 9; ++n) sum[n] = corner[n % 3 + 6 * (n / 3) + 36 * k].part[r];
+        const Real layer = static_cast<Real>(k - 1);
+        for (std::size_t n = 0; n < count; ++n) {
+          const Contribution& a = scratch.point[n];
+          const auto ax = a.slope[0].part[r], ay = a.slope[1].part[r];
+          const auto row1 = a.middle.part[r] + layer * a.slope[2].part[r];
+          const auto row0 = row1 - ay, row2 = row1 + ay;
+          const Real* w = reinterpret_cast<const Real*>(a.weight + 3 * k);
+          sum[0] += w[0] * (row0 - ax);
+          sum[1] += w[1] * row0;
+          sum[2] += w[2] * (row0 + ax);
+          sum[3] += w[4] * (row1 - ax);
+          sum[4] += w[5] * row1;
+          sum[5] += w[6] * (row1 + ax);
+          sum[6] += w[8] * (row2 - ax);
+          sum[7] += w[9] * row2;
+          sum[8] += w[10] * (row2 + ax);
+        }
+        for (int n = 0; n < 9; ++n) corner[n % 3 + 6 * (n / 3) + 36 * k].part[r] = sum[n];
+      }
+  }
 }
 
 /// Sums the tiles that reach a node block, neighbour by neighbour in a fixed order.
@@ -202,9 +247,11 @@ std::uint32_t ExplicitMpm<Real>::finish_nodes(std::int32_t slot) {
 }
 
 template void ExplicitMpm<float>::points_to_grid(double, double);
+template void ExplicitMpm<float>::share_step(double);
 template void ExplicitMpm<float>::prepare_block(std::int32_t);
 template void ExplicitMpm<float>::pour_loads(std::size_t);
 template void ExplicitMpm<double>::points_to_grid(double, double);
+template void ExplicitMpm<double>::share_step(double);
 template void ExplicitMpm<double>::prepare_block(std::int32_t);
 template void ExplicitMpm<double>::pour_loads(std::size_t);
 
