@@ -216,7 +216,10 @@ std::uint64_t ExplicitMpm<Real>::state_hash() const {
 
 template <class Real>
 std::size_t ExplicitMpm<Real>::memory_bytes() const {
-  return store_.memory_bytes() + grid_.memory_bytes() + tiles_.capacity() * sizeof(Node) +
+  std::size_t blocks_of_colours = 0;
+  for (const auto& colour : colours_) blocks_of_colours += colour.capacity();
+  return store_.memory_bytes() + grid_.memory_bytes() + scatter_scratch_.capacity() * sizeof(ScatterScratch) +
+         gather_scratch_.capacity() * sizeof(GatherScratch) + blocks_of_colours * sizeof(std::uint32_t) +
          node_begin_.capacity() * sizeof(std::uint32_t) + impulse_.capacity() * sizeof(Vec3) +
          impulses_.capacity() * sizeof(WallImpulses) + reports_.capacity() * sizeof(BlockReport) +
          (field_ ? field_->memory_bytes() : 0);

@@ -1,9 +1,10 @@
 #pragma once
 /// Explicit material point method for weakly compressible water, in float (production) or double.
 ///
-///   points_to_grid   bin points; each block of points scatters into a tile of its own (6 x 6 x 6 nodes of
-///                    16 lanes); node blocks add up the tiles that reach them, in a fixed order: no atomics,
-///                    the same bits for any number of threads
+///   points_to_grid   bin points; a block of points scatters into a tile (6 x 6 x 6 nodes of 16 lanes) and
+///   adds
+///                    it to the grid. Blocks of one colour share no node, and colours take turns in a fixed
+///                    order: no atomics, the same bits for any number of threads
 ///   walls            nodes beside walls: pressure closure, no flow through, friction; coupling impulses
 ///   grid_to_points   each block copies its 6 x 6 x 6 nodes and moves its points
 ///
@@ -108,7 +109,7 @@ class ExplicitMpm final : public FluidSystem {
   /// What a thread needs to scatter or move a block.
   struct ScatterScratch {
     static constexpr int batch = 16;
-    CellOrder order;
+    Node tile[BlockLayout::tile_nodes];
     Contribution point[batch];
   };
   /// What a point gathers from its 27 nodes: weighted sums, and sums of w d with d in cells.
@@ -125,7 +126,6 @@ class ExplicitMpm final : public FluidSystem {
   };
   struct GatherScratch {
     static constexpr int batch = 16;
-    CellOrder order;
     NodeTile tile;
     Gathered gathered[batch];
     Vector moved[batch];
@@ -138,13 +138,18 @@ class ExplicitMpm final : public FluidSystem {
   void contribute(const Point& p, Contribution& a) const;
   void scatter_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
                          Node* tile, WallImpulses& impulses) const;
-  void add_up_tiles(std::int32_t slot);
+  void colour_blocks();
+  void add_tile(const PointBlock& block, const Node* tile);
   std::uint32_t finish_nodes(std::int32_t slot);
   void wall_block(std::int32_t slot, std::uint32_t first, WallImpulses& impulses);
   void close_pressure(Node& node, double volume, std::span<const WallPlane> planes, const Vec3& at,
                       WallImpulses& impulses) const;
   void hold_at_walls(Node& node, double volume, Vec3 cut_off, std::span<const WallPlane> planes,
                      const Vec3& at, WallImpulses& impulses) const;
+  /// Calls row(slot, node, tile_node, length) for each row of nodes, along the first axis, of a block's tile:
+  /// where it lies in a grid block and where in the tile.
+  template <class Row>
+  void visit_tile(const PointBlock& block, const Row& row) const;
   void load_tile(const PointBlock& block, NodeTile& tile) const;
   void move_block(std::size_t index, GatherScratch& scratch);
   void move_cell(std::span<const std::uint32_t> slots, std::size_t index, std::int32_t stencil,
@@ -161,6 +166,7 @@ class ExplicitMpm final : public FluidSystem {
   void stop_at_walls(Point& p, const Place& before, std::int32_t cell_key, std::int32_t stencil,
                      WallImpulses& impulses) const;
   void settle_in_cell(Point& p, Place& before, std::int32_t& cell_key) const;
+  int colour_of(const Vec3i& place) const;
   int hiding_wall(const Visibility& seen, int node) const {
     return field_->patch_wall(seen.patch[static_cast<std::size_t>(node)]);
   }
@@ -192,9 +198,9 @@ class ExplicitMpm final : public FluidSystem {
   std::unique_ptr<WallField> field_;  ///< absent without walls
 
   StepNumbers step_;
-  std::vector<ScatterScratch> scatter_scratch_;  ///< per thread
-  std::vector<GatherScratch> gather_scratch_;    ///< per thread
-  std::vector<Node> tiles_;                      ///< tile_nodes per point block
+  std::vector<ScatterScratch> scatter_scratch_;      ///< per thread
+  std::vector<GatherScratch> gather_scratch_;        ///< per thread
+  std::vector<std::vector<std::uint32_t>> colours_;  ///< point blocks that may scatter at the same time
   std::vector<std::uint32_t> node_begin_{
       0};                               ///< index of the first node with mass per active block, and the end
   std::vector<Vec3> impulse_;           ///< from the coupling, in the order of read_nodes; empty = none
@@ -209,5 +215,31 @@ class ExplicitMpm final : public FluidSystem {
   Vec3 momentum_added_ = Vec3::Zero(), momentum_removed_ = Vec3::Zero();
   std::vector<WallLoad> loads_;
 };
+
+template <class Real>
+template <class Row>
+void ExplicitMpm<Real>::visit_tile(const PointBlock& block, const Row& row) const {
+  const Vec3i place = layout_.block_place(block.block);
+  const Vec3i width = layout_.width(place);
+  for (int bit = 0; bit < 27; ++bit) {
+    if (!(block.reach >> bit & 1)) continue;
+    const int step[3] = {bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
+    const std::int32_t there = layout_.neighbour(place, step[0], step[1], step[2]);
+    if (there == BlockLayout::none) continue;
+    const Vec3i width_there = layout_.width(layout_.block_place(there));
+    // Tile index along an axis: 0 is the neighbour below, 1..width this block, width + 1 the one above.
+    int lo[3], hi[3], shift[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = step[axis] < 0 ? 0 : step[axis] == 0 ? 1 : width[axis] + 1;
+      hi[axis] = step[axis] == 0 ? width[axis] + 1 : lo[axis] + 1;
+      shift[axis] = step[axis] < 0 ? width_there[axis] - 1 : -lo[axis];
+    }
+    const std::int32_t slot = grid_.slot_of(there);
+    for (int k = lo[2]; k < hi[2]; ++k)
+      for (int j = lo[1]; j < hi[1]; ++j)
+        row(slot, lo[0] + shift[0] + 4 * (j + shift[1]) + 16 * (k + shift[2]), lo[0] + 6 * j + 36 * k,
+            hi[0] - lo[0]);
+  }
+}
 
 }  // namespace sluice

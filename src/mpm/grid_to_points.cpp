@@ -34,39 +34,20 @@ void ExplicitMpm<Real>::grid_to_points(double dt) {
 
 template <class Real>
 void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const {
-  const Vec3i place = layout_.block_place(block.block);
-  const Vec3i width = layout_.width(place);
   for (Node& n : tile.node) n.clear();
   if (has_void_) std::fill_n(tile.void_fraction, BlockLayout::tile_nodes, Real(1));
-  for (int bit = 0; bit < 27; ++bit) {
-    if (!(block.reach >> bit & 1)) continue;
-    const int step[3] = {bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
-    const std::int32_t from = layout_.neighbour(place, step[0], step[1], step[2]);
-    if (from == BlockLayout::none) continue;
-    const std::int32_t slot = grid_.slot_of(from);
+  visit_tile(block, [&](std::int32_t slot, int from, int to, int length) {
     const Node* nodes = grid_.nodes(slot);
     const Real* voids = grid_.void_fraction(slot);
-    const Vec3i from_width = layout_.width(layout_.block_place(from));
-    // Tile index along an axis: 0 is the neighbour below, 1..width this block, width + 1 the one above.
-    int lo[3], hi[3], shift[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      lo[axis] = step[axis] < 0 ? 0 : step[axis] == 0 ? 1 : width[axis] + 1;
-      hi[axis] = step[axis] == 0 ? width[axis] + 1 : lo[axis] + 1;
-      shift[axis] = step[axis] < 0 ? from_width[axis] - 1 : -lo[axis];
+    std::copy_n(nodes + from, length, tile.node + to);
+    if (!has_void_) return;
+    for (int n = 0; n < length; ++n) {
+      // Rocks push on the water only where both together fill the space.
+      const Real ramp =
+          std::clamp((nodes[from + n][node_lane::fill] - Real(0.8)) / Real(0.15), Real(0), Real(1));
+      tile.void_fraction[to + n] = 1 - ramp * (1 - voids[from + n]);
     }
-    for (int k = lo[2]; k < hi[2]; ++k)
-      for (int j = lo[1]; j < hi[1]; ++j)
-        for (int i = lo[0]; i < hi[0]; ++i) {
-          const int source = i + shift[0] + 4 * (j + shift[1]) + 16 * (k + shift[2]);
-          const int n = i + 6 * j + 36 * k;
-          tile.node[n] = nodes[source];
-          if (!has_void_) continue;
-          // Rocks push on the water only where both together fill the space.
-          const Real ramp =
-              std::clamp((nodes[source][node_lane::fill] - Real(0.8)) / Real(0.15), Real(0), Real(1));
-          tile.void_fraction[n] = 1 - ramp * (1 - voids[source]);
-        }
-  }
+  });
   for (int local = 0; local < BlockLayout::nodes; ++local) {
     const int corner = (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
     Real least = tile.node[corner][node_lane::fill];
@@ -190,12 +171,10 @@ auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
 
 template <class Real>
 void ExplicitMpm<Real>::move_block(std::size_t index, GatherScratch& scratch) {
-  const PointBlock& block = store_.blocks()[index];
-  const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
+  const std::int32_t* stencil = grid_.stencil(grid_.slot_of(store_.blocks()[index].block));
   BlockReport report;
-  store_.order_by_cell(block, scratch.order);
   for (int local = 0; local < BlockLayout::nodes; ++local)
-    for (std::span<const std::uint32_t> slots = scratch.order.of_cell(local); !slots.empty();) {
+    for (std::span<const std::uint32_t> slots = store_.of_cell(index, local); !slots.empty();) {
       const std::size_t count = std::min<std::size_t>(slots.size(), GatherScratch::batch);
       move_cell(slots.first(count), index, stencil[local], scratch, report);
       slots = slots.subspan(count);

@@ -58,17 +58,6 @@ struct PointBlock {
   std::uint32_t count() const { return end - begin + stray_end - stray_begin; }
 };
 
-/// The points of a block by cell, and in the fixed order within a cell.
-struct CellOrder {
-  std::array<std::uint32_t, BlockLayout::nodes + 1> begin{};  ///< of each cell's points in `slot`
-  std::vector<std::uint32_t> slot;
-
-  std::span<const std::uint32_t> of_cell(int local) const {
-    const auto c = static_cast<std::size_t>(local);
-    return {slot.data() + begin[c], begin[c + 1] - begin[c]};
-  }
-};
-
 template <class Real>
 class PointStore {
  public:
@@ -85,30 +74,25 @@ class PointStore {
            double fines);
   void remove(std::size_t slot);
 
-  /// Finds the blocks that have points, sorting first when too many points are strays.
+  /// Finds the blocks that have points, and those of each cell; sorts first when too many are strays.
   void bin();
   const std::vector<PointBlock>& blocks() const { return blocks_; }
-  /// Slot of the n-th point of a block: residents (check `resident`), then strays.
-  std::uint32_t stray(std::uint32_t n) const { return strays_[n]; }
-  bool resident(std::uint32_t slot, std::int32_t block) const { return key[slot] >> 6 == block; }
   /// Index into blocks() or `none`.
   std::int32_t index_of_block(std::int32_t block) const {
     return index_of_block_[static_cast<std::size_t>(block)];
   }
 
-  /// Calls body(slot) for each point of a block, in the fixed order.
-  template <class Body>
-  void for_each(const PointBlock& block, const Body& body) const {
-    const std::uint32_t residents = block.end - block.begin;
-    const std::uint32_t all = residents + block.stray_end - block.stray_begin;
-    for (std::uint32_t n = 0; n < all; ++n) {
-      const std::uint32_t slot = n < residents ? block.begin + n : strays_[block.stray_begin + n - residents];
-      if (n < residents && key[slot] >> 6 != block.block) continue;
-      body(slot);
-    }
+  /// Slots of the points of a block, by index in blocks(), that lie in one of its cells; in the fixed order.
+  std::span<const std::uint32_t> of_cell(std::size_t block, int local) const {
+    const auto& begin = cell_begin_[block];
+    const auto c = static_cast<std::size_t>(local);
+    return {order_.data() + begin[c], begin[c + 1] - begin[c]};
   }
-
-  void order_by_cell(const PointBlock& block, CellOrder& out) const;
+  /// All of them, cell by cell.
+  std::span<const std::uint32_t> of_block(std::size_t block) const {
+    const auto& begin = cell_begin_[block];
+    return {order_.data() + begin.front(), begin.back() - begin.front()};
+  }
 
   std::size_t memory_bytes() const;
   void exchange(StateArchive& archive);
@@ -123,7 +107,19 @@ class PointStore {
  private:
   void find_strays();
   void list_strays();
+  void order_by_cell();
   void sort();
+  /// Calls body(slot) for each point of a block, in the fixed order.
+  template <class Body>
+  void for_each(const PointBlock& block, const Body& body) const {
+    const std::uint32_t residents = block.end - block.begin;
+    const std::uint32_t all = residents + block.stray_end - block.stray_begin;
+    for (std::uint32_t n = 0; n < all; ++n) {
+      const std::uint32_t slot = n < residents ? block.begin + n : strays_[block.stray_begin + n - residents];
+      if (n < residents && key[slot] >> 6 != block.block) continue;
+      body(slot);
+    }
+  }
 
   const BlockLayout* layout_;
   std::vector<std::int32_t> bin_block_;   ///< sorted: block of each bin
@@ -136,13 +132,10 @@ class PointStore {
   std::vector<std::uint32_t> strays_;
   std::vector<std::vector<std::uint32_t>> strays_of_bin_;
   std::vector<std::uint32_t> reach_of_bin_;
-  std::vector<std::uint32_t> place_;
-  std::vector<Point> spare_points_;
-  std::vector<Place> spare_before_;
-  std::vector<std::int32_t> spare_key_;
-  std::vector<std::uint64_t> spare_id_;
-  std::vector<double> spare_column_;
-  std::array<std::uint32_t, 64> reach_of_cell_{};  ///< for blocks of full width
+  std::vector<std::uint32_t> stray_place_;
+  std::vector<std::uint32_t> order_;                                           ///< slots by block and cell
+  std::vector<std::array<std::uint32_t, BlockLayout::nodes + 1>> cell_begin_;  ///< in order_, per block
+  std::array<std::uint32_t, 64> reach_of_cell_{};                              ///< for blocks of full width
 };
 
 }  // namespace sluice

@@ -31,25 +31,33 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   store_.bin();
   grid_.activate(store_.blocks(), [&](std::int32_t slot) { prepare_block(slot); });
   const std::size_t blocks = store_.blocks().size();
-  tiles_.resize(blocks * BlockLayout::tile_nodes);
+  colour_blocks();
   if (impulses_.size() < std::max(blocks, grid_.active().size()))
     impulses_.resize(std::max(blocks, grid_.active().size()));
   reports_.resize(blocks);
-  parallel_chunks_with(
-      scatter_scratch_, blocks, 1,
-      [&](ScatterScratch& scratch, std::size_t, std::size_t b, std::size_t) { scatter_block(b, scratch); });
+  const std::vector<std::int32_t>& active = grid_.active();
+  parallel_for(
+      active.size(),
+      [&](std::size_t b) {
+        Node* nodes = grid_.nodes(grid_.slot_of(active[b]));
+        for (int n = 0; n < BlockLayout::nodes; ++n) nodes[n].clear();
+      },
+      16);
+  for (const std::vector<std::uint32_t>& colour : colours_)
+    parallel_chunks_with(scatter_scratch_, colour.size(), 1,
+                         [&](ScatterScratch& scratch, std::size_t, std::size_t n, std::size_t) {
+                           scatter_block(colour[n], scratch);
+                         });
   if (field_) pour_loads(blocks);
   double mass = 0;
   for (const BlockReport& r : reports_) mass += r.mass;
   gravity_impulse_ += mass * dt * gravity_;
 
-  const std::vector<std::int32_t>& active = grid_.active();
   node_begin_.assign(active.size() + 1, 0);
   parallel_for(
       active.size(),
       [&](std::size_t b) {
         const std::int32_t slot = grid_.slot_of(active[b]);
-        add_up_tiles(slot);
         node_begin_[b + 1] = finish_nodes(slot);
       },
       4);
@@ -133,14 +141,14 @@ void ExplicitMpm<Real>::contribute(const Point& p, Contribution& a) const {
 template <class Real>
 void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch) {
   const PointBlock& block = store_.blocks()[index];
-  Node* tile = &tiles_[index * BlockLayout::tile_nodes];
+  Node* tile = scratch.tile;
   for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile[n].clear();
   const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
-  store_.order_by_cell(block, scratch.order);
   double mass = 0;
-  for (const std::uint32_t slot : scratch.order.slot) mass += static_cast<double>(store_.points[slot].mass());
+  for (const std::uint32_t slot : store_.of_block(index))
+    mass += static_cast<double>(store_.points[slot].mass());
   for (int local = 0; local < BlockLayout::nodes; ++local) {
-    const std::span<const std::uint32_t> slots = scratch.order.of_cell(local);
+    const std::span<const std::uint32_t> slots = store_.of_cell(index, local);
     if (stencil[local] < 0) {
       scatter_cell(slots, tile + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4), scratch);
       continue;
@@ -152,6 +160,7 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
     }
   }
   reports_[index].mass = mass;
+  add_tile(block, tile);
 }
 
 /// Adds the points of one cell: nodes stay in registers, nine at a time, while the points pass.
@@ -188,34 +197,39 @@ void ExplicitMpm<Real>::scatter_cell(std::span<const std::uint32_t> slots, Node*
   }
 }
 
-/// Sums the tiles that reach a node block, neighbour by neighbour in a fixed order.
 template <class Real>
-void ExplicitMpm<Real>::add_up_tiles(std::int32_t slot) {
-  Node* nodes = grid_.nodes(slot);
-  for (int n = 0; n < BlockLayout::nodes; ++n) nodes[n].clear();
-  const Vec3i place = layout_.block_place(grid_.block_of(slot));
-  const Vec3i width = layout_.width(place);
-  for (int bit = 0; bit < 27; ++bit) {
-    const int step[3] = {bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
-    const std::int32_t from = layout_.neighbour(place, step[0], step[1], step[2]);
-    if (from == BlockLayout::none) continue;
-    const std::int32_t index = store_.index_of_block(from);
-    if (index == BlockLayout::none) continue;
-    // The neighbour reaches this block where its own mask has the opposite direction.
-    if (!(store_.blocks()[static_cast<std::size_t>(index)].reach >> (26 - bit) & 1)) continue;
-    const Node* tile = &tiles_[static_cast<std::size_t>(index) * BlockLayout::tile_nodes];
-    const Vec3i from_width = layout_.width(layout_.block_place(from));
-    int lo[3], hi[3], shift[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      lo[axis] = step[axis] > 0 ? width[axis] - 1 : 0;
-      hi[axis] = step[axis] < 0 ? 1 : width[axis];
-      shift[axis] = step[axis] < 0 ? from_width[axis] + 1 : step[axis] > 0 ? -lo[axis] : 1;
+void ExplicitMpm<Real>::add_tile(const PointBlock& block, const Node* tile) {
+  visit_tile(block, [&](std::int32_t slot, int to, int from, int length) {
+    Node* nodes = grid_.nodes(slot);
+    for (int n = 0; n < length; ++n) nodes[to + n].add(tile[from + n]);
+  });
+}
+
+/// Blocks of one colour write to no common node: along each axis they are two apart, also through a periodic
+/// face, and where the last block is but one node wide, those on both sides of it differ, too.
+template <class Real>
+int ExplicitMpm<Real>::colour_of(const Vec3i& place) const {
+  int colour = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int blocks = layout_.blocks()[axis], last = blocks - 1;
+    int own = place[axis] & 1;
+    if (domain_.periodic(axis)) {
+      if (place[axis] == last && last % 2 == 0) own = 2;
+      if (place[axis] == last - 1 && layout_.width(axis, last) == 1) own = 3;
     }
-    for (int k = lo[2]; k < hi[2]; ++k)
-      for (int j = lo[1]; j < hi[1]; ++j)
-        for (int i = lo[0]; i < hi[0]; ++i)
-          nodes[i + 4 * j + 16 * k].add(tile[i + shift[0] + 6 * (j + shift[1]) + 36 * (k + shift[2])]);
+    colour = 4 * colour + own;
   }
+  return colour;
+}
+
+template <class Real>
+void ExplicitMpm<Real>::colour_blocks() {
+  colours_.resize(64);
+  for (std::vector<std::uint32_t>& colour : colours_) colour.clear();
+  const std::vector<PointBlock>& blocks = store_.blocks();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    colours_[static_cast<std::size_t>(colour_of(layout_.block_place(blocks[b].block)))].push_back(
+        static_cast<std::uint32_t>(b));
 }
 
 /// Turns a block's sums into velocities and means; returns how many of its nodes carry mass.
