@@ -134,10 +134,10 @@ class ExplicitMpm final : public FluidSystem {
   std::vector<RemovedPoint> remove_slots(std::vector<std::uint32_t>& slots);
   void prepare_block(std::int32_t slot);
   void scatter_block(std::size_t index, ScatterScratch& scratch);
-  void scatter_cell(std::span<const std::uint32_t> slots, Node* corner, ScatterScratch& scratch) const;
+  void scatter(std::span<const Contribution> points, Node* corner) const;
   void contribute(const Point& p, Contribution& a) const;
-  void scatter_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
-                         Node* tile, WallImpulses& impulses) const;
+  void hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
+                  WallImpulses& impulses) const;
   void colour_blocks();
   void add_tile(const PointBlock& block, const Node* tile);
   std::uint32_t finish_nodes(std::int32_t slot);
@@ -167,9 +167,6 @@ class ExplicitMpm final : public FluidSystem {
                      WallImpulses& impulses) const;
   void settle_in_cell(Point& p, Place& before, std::int32_t& cell_key) const;
   int colour_of(const Vec3i& place) const;
-  int hiding_wall(const Visibility& seen, int node) const {
-    return field_->patch_wall(seen.patch[static_cast<std::size_t>(node)]);
-  }
   void check_reports();
   void pour_loads(std::size_t lists);
 

@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "mpm/explicit_mpm.h"
-#include "mpm/spline_weights.h"
+#include "mpm/spline_sums.h"
 
 namespace sluice {
 
@@ -39,7 +39,10 @@ void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const
   visit_tile(block, [&](std::int32_t slot, int from, int to, int length) {
     const Node* nodes = grid_.nodes(slot);
     const Real* voids = grid_.void_fraction(slot);
-    std::copy_n(nodes + from, length, tile.node + to);
+    if (length == BlockLayout::edge)
+      for (int n = 0; n < BlockLayout::edge; ++n) tile.node[to + n] = nodes[from + n];
+    else
+      for (int n = 0; n < length; ++n) tile.node[to + n] = nodes[from + n];
     if (!has_void_) return;
     for (int n = 0; n < length; ++n) {
       // Rocks push on the water only where both together fill the space.
@@ -59,34 +62,12 @@ void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const
   }
 }
 
-/// Sums over the 27 nodes, axis by axis. Moments are first taken about the middle node, where the weights of
-/// an axis are -1, 0, 1, and then moved to the point.
 template <class Real>
 void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const {
   using namespace node_lane;
   const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
-  const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
   Node sum, moment[3];
-  for (int r = 0; r < Node::registers; ++r) {
-    typename Node::Register plain[3], by_x[3], by_y[3];
-    for (int k = 0; k < 3; ++k) {
-      typename Node::Register row[3], row_x[3];
-      for (int j = 0; j < 3; ++j) {
-        const Node* node = corner + 6 * j + 36 * k;
-        const auto low = x.w[0] * node[0].part[r], high = x.w[2] * node[2].part[r];
-        row[j] = y.w[j] * ((low + high) + x.w[1] * node[1].part[r]);
-        row_x[j] = high - low;
-      }
-      plain[k] = z.w[k] * ((row[0] + row[2]) + row[1]);
-      by_y[k] = row[2] - row[0];
-      by_x[k] = y.w[0] * row_x[0] + y.w[1] * row_x[1] + y.w[2] * row_x[2];
-    }
-    const auto whole = (plain[0] + plain[2]) + plain[1];
-    sum.part[r] = whole;
-    moment[0].part[r] = z.w[0] * by_x[0] + z.w[1] * by_x[1] + z.w[2] * by_x[2] - p.x[0] * whole;
-    moment[1].part[r] = z.w[0] * by_y[0] + z.w[1] * by_y[1] + z.w[2] * by_y[2] - p.x[1] * whole;
-    moment[2].part[r] = (plain[2] - plain[0]) - p.x[2] * whole;
-  }
+  spline_sums<6, 36>(corner, p.x, sum, moment);
   g.velocity = sum.quad(0);
   g.change = sum.quad(1);
   g.centre = sum.quad(2);

@@ -145,56 +145,50 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
   for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile[n].clear();
   const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
   double mass = 0;
-  for (const std::uint32_t slot : store_.of_block(index))
-    mass += static_cast<double>(store_.points[slot].mass());
   for (int local = 0; local < BlockLayout::nodes; ++local) {
-    const std::span<const std::uint32_t> slots = store_.of_cell(index, local);
-    if (stencil[local] < 0) {
-      scatter_cell(slots, tile + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4), scratch);
-      continue;
-    }
-    for (const std::uint32_t slot : slots) {
-      contribute(store_.points[slot], scratch.point[0]);
-      scatter_near_wall(store_.points[slot], store_.key[slot], stencil[local], scratch.point[0], tile,
-                        impulses_[index]);
+    Node* corner = tile + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
+    for (std::span<const std::uint32_t> slots = store_.of_cell(index, local); !slots.empty();) {
+      const std::size_t count = std::min<std::size_t>(slots.size(), ScatterScratch::batch);
+      for (std::size_t n = 0; n < count; ++n) {
+        const Point& p = store_.points[slots[n]];
+        mass += static_cast<double>(p.mass());
+        contribute(p, scratch.point[n]);
+        if (stencil[local] >= 0)
+          hide_nodes(p, store_.key[slots[n]], stencil[local], scratch.point[n], impulses_[index]);
+      }
+      scatter({scratch.point, count}, corner);
+      slots = slots.subspan(count);
     }
   }
   reports_[index].mass = mass;
   add_tile(block, tile);
 }
 
-/// Adds the points of one cell: nodes stay in registers, nine at a time, while the points pass.
+/// Adds points of one cell: nodes stay in registers, nine at a time, while the points pass.
 template <class Real>
-void ExplicitMpm<Real>::scatter_cell(std::span<const std::uint32_t> slots, Node* corner,
-                                     ScatterScratch& scratch) const {
-  while (!slots.empty()) {
-    const std::size_t count = std::min<std::size_t>(slots.size(), ScatterScratch::batch);
-    for (std::size_t n = 0; n < count; ++n) contribute(store_.points[slots[n]], scratch.point[n]);
-    slots = slots.subspan(count);
-    for (int r = 0; r < Node::registers; ++r)
-      for (int k = 0; k < 3; ++k) {
-        typename Node::Register sum[9];
-        for (int n = 0; n < 9; ++n) sum[n] = corner[n % 3 + 6 * (n / 3) + 36 * k].part[r];
-        const Real layer = static_cast<Real>(k - 1);
-        for (std::size_t n = 0; n < count; ++n) {
-          const Contribution& a = scratch.point[n];
-          const auto ax = a.slope[0].part[r], ay = a.slope[1].part[r];
-          const auto row1 = a.middle.part[r] + layer * a.slope[2].part[r];
-          const auto row0 = row1 - ay, row2 = row1 + ay;
-          const Real* w = reinterpret_cast<const Real*>(a.weight + 3 * k);
-          sum[0] += w[0] * (row0 - ax);
-          sum[1] += w[1] * row0;
-          sum[2] += w[2] * (row0 + ax);
-          sum[3] += w[4] * (row1 - ax);
-          sum[4] += w[5] * row1;
-          sum[5] += w[6] * (row1 + ax);
-          sum[6] += w[8] * (row2 - ax);
-          sum[7] += w[9] * row2;
-          sum[8] += w[10] * (row2 + ax);
-        }
-        for (int n = 0; n < 9; ++n) corner[n % 3 + 6 * (n / 3) + 36 * k].part[r] = sum[n];
+void ExplicitMpm<Real>::scatter(std::span<const Contribution> points, Node* corner) const {
+  for (int r = 0; r < Node::registers; ++r)
+    for (int k = 0; k < 3; ++k) {
+      typename Node::Register sum[9];
+      for (int n = 0; n < 9; ++n) sum[n] = corner[n % 3 + 6 * (n / 3) + 36 * k].part[r];
+      const Real layer = static_cast<Real>(k - 1);
+      for (const Contribution& a : points) {
+        const auto ax = a.slope[0].part[r], ay = a.slope[1].part[r];
+        const auto row1 = a.middle.part[r] + layer * a.slope[2].part[r];
+        const auto row0 = row1 - ay, row2 = row1 + ay;
+        const Real* w = reinterpret_cast<const Real*>(a.weight + 3 * k);
+        sum[0] += w[0] * (row0 - ax);
+        sum[1] += w[1] * row0;
+        sum[2] += w[2] * (row0 + ax);
+        sum[3] += w[4] * (row1 - ax);
+        sum[4] += w[5] * row1;
+        sum[5] += w[6] * (row1 + ax);
+        sum[6] += w[8] * (row2 - ax);
+        sum[7] += w[9] * row2;
+        sum[8] += w[10] * (row2 + ax);
       }
-  }
+      for (int n = 0; n < 9; ++n) corner[n % 3 + 6 * (n / 3) + 36 * k].part[r] = sum[n];
+    }
 }
 
 template <class Real>

@@ -1,0 +1,40 @@
+#pragma once
+/// Sums over the 27 nodes around a point, axis by axis.
+
+#include "mpm/lanes.h"
+#include "mpm/spline_weights.h"
+
+namespace sluice {
+
+/// sum = sum w node, moment[c] = sum w d_c node, with d in cells from the point. Moments are first taken
+/// about the middle node, where an axis counts -1, 0, 1, and then moved to the point.
+/// @param corner  node (-1, -1, -1); the next in y is `row` nodes on, in z `layer`
+/// @param offset  of the point from the middle node [cells]
+template <int row, int layer, class Real>
+void spline_sums(const Lanes<Real>* corner, const Quad<Real>& offset, Lanes<Real>& sum,
+                 Lanes<Real> (&moment)[3]) {
+  using Register = typename Lanes<Real>::Register;
+  const SplineWeights<Real> x(offset[0]), y(offset[1]), z(offset[2]);
+  for (int r = 0; r < Lanes<Real>::registers; ++r) {
+    Register plain[3], by_x[3], by_y[3];
+    for (int k = 0; k < 3; ++k) {
+      Register line[3], line_x[3];
+      for (int j = 0; j < 3; ++j) {
+        const Lanes<Real>* node = corner + row * j + layer * k;
+        const Register low = x.w[0] * node[0].part[r], high = x.w[2] * node[2].part[r];
+        line[j] = y.w[j] * ((low + high) + x.w[1] * node[1].part[r]);
+        line_x[j] = high - low;
+      }
+      plain[k] = z.w[k] * ((line[0] + line[2]) + line[1]);
+      by_y[k] = line[2] - line[0];
+      by_x[k] = y.w[0] * line_x[0] + y.w[1] * line_x[1] + y.w[2] * line_x[2];
+    }
+    const Register whole = (plain[0] + plain[2]) + plain[1];
+    sum.part[r] = whole;
+    moment[0].part[r] = z.w[0] * by_x[0] + z.w[1] * by_x[1] + z.w[2] * by_x[2] - offset[0] * whole;
+    moment[1].part[r] = z.w[0] * by_y[0] + z.w[1] * by_y[1] + z.w[2] * by_y[2] - offset[1] * whole;
+    moment[2].part[r] = (plain[2] - plain[0]) - offset[2] * whole;
+  }
+}
+
+}  // namespace sluice
