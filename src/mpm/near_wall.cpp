@@ -19,24 +19,32 @@ constexpr double enough_seen = 0.25;
 /// Hidden nodes that the same walls hide from a point in the same way, as one: whatever is linear in their
 /// distance d from the point needs only the moments of their weights.
 struct HiddenNodes {
-  std::uint32_t mirrors = 0;  ///< bits of the planes at which the point's field is mirrored
-  std::uint32_t between = 0;  ///< bits of the planes between the point and them
-  int wall = -1;              ///< that hides them
-  double w = 0;               ///< sum of the weights
-  Vec3 d = Vec3::Zero();      ///< sum w d [cells]
-  Mat3 dd = Mat3::Zero();     ///< sum w d d^T [cells2]
+  std::uint32_t mirrors;  ///< bits of the planes at which the point's field is mirrored
+  std::uint32_t between;  ///< bits of the planes between the point and them
+  int wall;               ///< that hides them
+  double w;               ///< sum of the weights
+  double first[3];        ///< sum w d [cells]
+  double second[6];       ///< sum w d d^T as xx yy zz yz xz xy [cells2]
+
+  Vec3 d() const { return {first[0], first[1], first[2]}; }
+  Mat3 dd() const {
+    Mat3 m;
+    m << second[0], second[5], second[4], second[5], second[1], second[3], second[4], second[3], second[2];
+    return m;
+  }
 };
 
 struct HiddenGroups {
-  HiddenNodes group[27];
-  int count = 0;
+  HiddenNodes group[27];  ///< of which `count` are written
+  int count;
+  HiddenGroups() : count(0) {}
   std::span<const HiddenNodes> all() const { return {group, static_cast<std::size_t>(count)}; }
 
   HiddenNodes& of(std::uint32_t mirrors, std::uint32_t between, int wall) {
     for (int n = 0; n < count; ++n)
       if (group[n].mirrors == mirrors && group[n].between == between && group[n].wall == wall)
         return group[n];
-    group[count] = {.mirrors = mirrors, .between = between, .wall = wall};
+    group[count] = {mirrors, between, wall, 0, {0, 0, 0}, {0, 0, 0, 0, 0, 0}};
     return group[count++];
   }
 };
@@ -56,27 +64,38 @@ template <class Real>
 void group_hidden(const Surroundings& around, const MaterialPoint<Real>& p, std::uint32_t holds,
                   HiddenGroups& out) {
   const double h = around.h;
-  const SplineWeights<Real> wx(p.x[0]), wy(p.x[1]), wz(p.x[2]);
+  const SplineWeights<Real> axis[3] = {SplineWeights<Real>(p.x[0]), SplineWeights<Real>(p.x[1]),
+                                       SplineWeights<Real>(p.x[2])};
   for (std::uint32_t left = around.seen.hidden; left != 0; left &= left - 1) {
     const int n = std::countr_zero(left), i = n % 3, j = n / 3 % 3, k = n / 9;
-    const Vec3 d(static_cast<double>(wx.d[i]), static_cast<double>(wy.d[j]), static_cast<double>(wz.d[k]));
-    Vec3 mirrored = h * (d + node_offset);
+    const Vec3 d(static_cast<double>(axis[0].d[i]), static_cast<double>(axis[1].d[j]),
+                 static_cast<double>(axis[2].d[k]));
+    // Sides are decided where nodes count as being, as in visibility(): a node on the plane has one.
+    const Vec3 at = h * (d + node_offset);
+    Vec3 mirrored = at;
     std::uint32_t mirrors = 0, between = 0;
     for (int q = 0; q < around.plane_count; ++q) {
-      // Sides are decided where nodes count as being, as in visibility(): a node on the plane has one.
       const WallPlane& plane = around.planes[q];
-      if (plane.normal.dot(h * (d + node_offset)) > plane.distance) between |= 1U << q;
-      const double beyond = plane.normal.dot(mirrored - h * node_offset) - plane.distance;
+      if (plane.normal.dot(at) > plane.distance) between |= 1U << q;
       if (!(holds >> q & 1) || plane.normal.dot(mirrored) <= plane.distance) continue;
-      mirrored -= 2 * beyond * plane.normal;
       mirrors |= 1U << q;
+      if (q + 1 < around.plane_count)
+        mirrored -= 2 * (plane.normal.dot(mirrored - h * node_offset) - plane.distance) * plane.normal;
     }
-    const int wall = around.field.patch_wall(around.seen.patch[static_cast<std::size_t>(n)]);
-    HiddenNodes& hidden = out.of(mirrors, between, wall);
-    const double w = static_cast<double>(wx.w[i] * wy.w[j] * wz.w[k]);
+    HiddenNodes& hidden =
+        out.of(mirrors, between, around.field.patch_wall(around.seen.patch[static_cast<std::size_t>(n)]));
+    const double w = static_cast<double>(axis[0].w[i] * axis[1].w[j] * axis[2].w[k]);
+    const double wx = w * d[0], wy = w * d[1], wz = w * d[2];
     hidden.w += w;
-    hidden.d += w * d;
-    hidden.dd += w * d * d.transpose();
+    hidden.first[0] += wx;
+    hidden.first[1] += wy;
+    hidden.first[2] += wz;
+    hidden.second[0] += wx * d[0];
+    hidden.second[1] += wy * d[1];
+    hidden.second[2] += wz * d[2];
+    hidden.second[3] += wy * d[2];
+    hidden.second[4] += wx * d[2];
+    hidden.second[5] += wx * d[1];
   }
 }
 
@@ -84,10 +103,10 @@ void group_hidden(const Surroundings& around, const MaterialPoint<Real>& p, std:
 /// corner, each gets its own normal part; what is left goes to the wall that hides the nodes.
 void share_out(const Surroundings& around, const HiddenNodes& hidden, const Vec3& constant, const Mat3& slope,
                WallImpulses& out) {
-  Vec3 impulse = hidden.w * constant + slope * hidden.d;
+  Vec3 impulse = hidden.w * constant + slope * hidden.d();
   // Sum of x_node impulse^T, from which any part's angular impulse follows.
   Mat3 first = around.x * impulse.transpose();
-  first += around.h * (hidden.d * constant.transpose() + hidden.dd * slope.transpose());
+  first += around.h * (hidden.d() * constant.transpose() + hidden.dd() * slope.transpose());
   const auto turning = [](const Mat3& m) {
     return Vec3(m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0));
   };
@@ -223,12 +242,12 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
       }
     }
     const Vec3 whole = ghost_change + mean_bulk * ghost;
-    const Vec3 velocity_sum = mean_bulk * (hidden.w * ghost + ghost_slope * hidden.d);
-    const Mat3 moments = whole * hidden.d.transpose() + mean_bulk * ghost_slope * hidden.dd;
+    const Vec3 velocity_sum = mean_bulk * (hidden.w * ghost + ghost_slope * hidden.d());
+    const Mat3 moments = whole * hidden.d().transpose() + mean_bulk * ghost_slope * hidden.dd();
     for (int r = 0; r < 3; ++r) {
       g.change[r] += static_cast<Real>(hidden.w * ghost_change[r]);
       g.velocity[r] += static_cast<Real>(velocity_sum[r]);
-      g.bulk_moment[r] += static_cast<Real>(mean_bulk * hidden.d[r]);
+      g.bulk_moment[r] += static_cast<Real>(mean_bulk * hidden.first[r]);
       for (int c = 0; c < 3; ++c) g.moment[c][r] += static_cast<Real>(moments(r, c));
     }
     g.bulk += static_cast<Real>(hidden.w * mean_bulk);

@@ -11,8 +11,8 @@ namespace sluice {
 /// @param corner  node (-1, -1, -1); the next in y is `row` nodes on, in z `layer`
 /// @param offset  of the point from the middle node [cells]
 template <int row, int layer, class Real>
-void spline_sums(const Lanes<Real>* corner, const Quad<Real>& offset, Lanes<Real>& sum,
-                 Lanes<Real> (&moment)[3]) {
+[[gnu::always_inline]] inline void spline_sums(const Lanes<Real>* corner, const Quad<Real>& offset,
+                                               Lanes<Real>& sum, Lanes<Real> (&moment)[3]) {
   using Register = typename Lanes<Real>::Register;
   const SplineWeights<Real> x(offset[0]), y(offset[1]), z(offset[2]);
   for (int r = 0; r < Lanes<Real>::registers; ++r) {
