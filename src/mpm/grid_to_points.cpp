@@ -66,14 +66,15 @@ template <class Real>
 void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const {
   using namespace node_lane;
   const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
-  Node sum, moment[3];
+  Node sum;
+  typename Node::Half moment[3];
   spline_sums<6, 36>(corner, p.x, sum, moment);
   g.velocity = sum.quad(0);
   g.change = sum.quad(1);
   g.centre = sum.quad(2);
   g.pressure = sum.quad(3);
   for (int c = 0; c < 3; ++c) {
-    g.moment[c] = moment[c].quad(0) + moment[c].quad(1);
+    g.moment[c] = sum_of_quads<Real>(moment[c]);
     g.bulk_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill];
   }

@@ -161,6 +161,14 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     return;
   }
 
+  around.plane_count = field_->planes_of_point(stencil, around.x, around.planes, most_planes);
+  const Vec3 v = velocity_of(p);
+  std::uint32_t holds = 0;
+  for (int q = 0; q < around.plane_count; ++q)  // what leaves a wall, nothing holds
+    if (p.dilation() < 0 || v.dot(around.planes[q].normal) >= 0) holds |= 1U << q;
+  HiddenGroups groups;
+  group_hidden(around, p, holds, groups);
+
   // Visible nodes; the lane of the mass is lent to the weight.
   const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
   Node visible[27];
@@ -174,7 +182,8 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     visible[n][node_lane::near_wall] = 1;
     least = std::min(least, visible[n][fill]);
   }
-  Node sum, moment[3];
+  Node sum;
+  typename Node::Half moment[3];
   spline_sums<3, 9>(visible, p.x, sum, moment);
 
   // Means of what only they know. All of C is taken anew: nothing damps the rest here, and in a wedge it
@@ -195,26 +204,21 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   const double trust = std::min(1.0, static_cast<double>(weight) / enough_seen);
   Vec3 mean_change = (1 - trust) * step_.dt * gravity_;
   for (int c = 0; c < 3; ++c) {
-    const Real weight_moment = moment[c][node_lane::near_wall];
+    double hidden_moment = 0;  // of all nodes it is zero
+    for (const HiddenNodes& hidden : groups.all()) hidden_moment += hidden.first[c];
+    const Real weight_moment = static_cast<Real>(-hidden_moment);
     g.centre[c] += weight_moment * per_weight;
     g.bulk_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill] - g.fill * weight_moment;
-    g.moment[c] = moment[c].quad(0) + moment[c].quad(1);
+    g.moment[c] = sum_of_quads<Real>(moment[c]);
     mean_change[c] += static_cast<double>(sum[change + c] / std::max(weight, Real(enough_seen)));
   }
 
   // Hidden nodes: the point's own field, mirrored at the planes between.
-  around.plane_count = field_->planes_of_point(stencil, around.x, around.planes, most_planes);
   const double h = config_.spacing;
-  const Vec3 v = velocity_of(p);
   Mat3 C;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) C(r, c) = static_cast<double>(p.C[c][r]);
-  std::uint32_t holds = 0;
-  for (int q = 0; q < around.plane_count; ++q)  // what leaves a wall, nothing holds
-    if (p.dilation() < 0 || v.dot(around.planes[q].normal) >= 0) holds |= 1U << q;
-  HiddenGroups groups;
-  group_hidden(around, p, holds, groups);
   const double share = static_cast<double>(step_.relax_velocity) * mean_bulk;
   for (const HiddenNodes& hidden : groups.all()) {
     Vec3 at = Vec3::Zero();                // mirrored node, constant
