@@ -39,7 +39,7 @@ void PointStore<Real>::add(const Point& point, std::int32_t cell_key, std::uint6
                            double point_mass, double point_fines) {
   if (point_fines != 0 && fines.empty()) fines.assign(points.size(), 0.0);
   if (points.size() == points.capacity()) {
-    const std::size_t room = points.size() + points.size() / 8 + 1024;  // an eighth more, not twice as much
+    const std::size_t room = points.size() + points.size() / 32 + 1024;  // a little more, not twice as much
     points.reserve(room);
     before.reserve(room);
     key.reserve(room);
