@@ -4,100 +4,17 @@
 #include <limits>
 
 #include "mpm/explicit_mpm.h"
+#include "mpm/hidden_nodes.h"
 #include "mpm/spline_sums.h"
 #include "mpm/wall_stencils.h"
 
 namespace sluice {
 
 namespace {
-constexpr int most_planes = 6;      ///< that act on one point
 constexpr double stand_off = 1e-4;  ///< of a stopped point from its wall [cells]
 constexpr int most_path_hits = 3;   ///< a corner of three walls
 /// Weight of the visible nodes from which on their mean speaks for the hidden ones; below, gravity fills in.
 constexpr double enough_seen = 0.25;
-
-/// Hidden nodes that the same walls hide from a point in the same way, as one: whatever is linear in their
-/// distance d from the point needs only the moments of their weights.
-struct HiddenNodes {
-  std::uint32_t mirrors;  ///< bits of the planes at which the point's field is mirrored
-  std::uint32_t between;  ///< bits of the planes between the point and them
-  int wall;               ///< that hides them
-  double w;               ///< sum of the weights
-  double first[3];        ///< sum w d [cells]
-  double second[6];       ///< sum w d d^T as xx yy zz yz xz xy [cells2]
-
-  Vec3 d() const { return {first[0], first[1], first[2]}; }
-  Mat3 dd() const {
-    Mat3 m;
-    m << second[0], second[5], second[4], second[5], second[1], second[3], second[4], second[3], second[2];
-    return m;
-  }
-};
-
-struct HiddenGroups {
-  HiddenNodes group[27];  ///< of which `count` are written
-  int count;
-  HiddenGroups() : count(0) {}
-  std::span<const HiddenNodes> all() const { return {group, static_cast<std::size_t>(count)}; }
-
-  HiddenNodes& of(std::uint32_t mirrors, std::uint32_t between, int wall) {
-    for (int n = 0; n < count; ++n)
-      if (group[n].mirrors == mirrors && group[n].between == between && group[n].wall == wall)
-        return group[n];
-    group[count] = {mirrors, between, wall, 0, {0, 0, 0}, {0, 0, 0, 0, 0, 0}};
-    return group[count++];
-  }
-};
-
-/// What stands around a point near walls.
-struct Surroundings {
-  const WallField& field;
-  double h = 0;
-  Vec3 x = Vec3::Zero();  ///< of the point [m]
-  Visibility seen{};
-  WallPlane planes[most_planes]{};
-  int plane_count = 0;
-};
-
-/// @param holds  bits of the planes that hold the point: it does not leave them freely
-template <class Real>
-void group_hidden(const Surroundings& around, const MaterialPoint<Real>& p, std::uint32_t holds,
-                  HiddenGroups& out) {
-  const double h = around.h;
-  const SplineWeights<Real> axis[3] = {SplineWeights<Real>(p.x[0]), SplineWeights<Real>(p.x[1]),
-                                       SplineWeights<Real>(p.x[2])};
-  for (std::uint32_t left = around.seen.hidden; left != 0; left &= left - 1) {
-    const int n = std::countr_zero(left), i = n % 3, j = n / 3 % 3, k = n / 9;
-    const Vec3 d(static_cast<double>(axis[0].d[i]), static_cast<double>(axis[1].d[j]),
-                 static_cast<double>(axis[2].d[k]));
-    // Sides are decided where nodes count as being, as in visibility(): a node on the plane has one.
-    const Vec3 at = h * (d + node_offset);
-    Vec3 mirrored = at;
-    std::uint32_t mirrors = 0, between = 0;
-    for (int q = 0; q < around.plane_count; ++q) {
-      const WallPlane& plane = around.planes[q];
-      if (plane.normal.dot(at) > plane.distance) between |= 1U << q;
-      if (!(holds >> q & 1) || plane.normal.dot(mirrored) <= plane.distance) continue;
-      mirrors |= 1U << q;
-      if (q + 1 < around.plane_count)
-        mirrored -= 2 * (plane.normal.dot(mirrored - h * node_offset) - plane.distance) * plane.normal;
-    }
-    HiddenNodes& hidden =
-        out.of(mirrors, between, around.field.patch_wall(around.seen.patch[static_cast<std::size_t>(n)]));
-    const double w = static_cast<double>(axis[0].w[i] * axis[1].w[j] * axis[2].w[k]);
-    const double wx = w * d[0], wy = w * d[1], wz = w * d[2];
-    hidden.w += w;
-    hidden.first[0] += wx;
-    hidden.first[1] += wy;
-    hidden.first[2] += wz;
-    hidden.second[0] += wx * d[0];
-    hidden.second[1] += wy * d[1];
-    hidden.second[2] += wz * d[2];
-    hidden.second[3] += wy * d[2];
-    hidden.second[4] += wx * d[2];
-    hidden.second[5] += wx * d[1];
-  }
-}
 
 /// Gives walls the impulse w (constant + slope d) of each hidden node. Where two planes lie between, as in a
 /// corner, each gets its own normal part; what is left goes to the wall that hides the nodes.
@@ -122,6 +39,10 @@ void share_out(const Surroundings& around, const HiddenNodes& hidden, const Vec3
     }
   out.add_turning(hidden.wall, impulse, turning(first));
 }
+template <class Triple>
+Vec3 offset_of(const Triple& x) {
+  return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
+}
 }  // namespace
 
 /// Takes from a point's contribution what walls hide: they get the stress and the weight that the hidden
@@ -137,7 +58,7 @@ void ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::i
   if (around.seen.hidden == 0) return;
 
   HiddenGroups groups;
-  group_hidden(around, p, 0, groups);
+  group_hidden(around, offset_of(p.x), 0, groups);
   const Vec3 weight = step_.dt * static_cast<double>(p.mass()) * gravity_;
   Mat3 stress;
   for (int r = 0; r < 3; ++r)
@@ -167,20 +88,24 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   for (int q = 0; q < around.plane_count; ++q)  // what leaves a wall, nothing holds
     if (p.dilation() < 0 || v.dot(around.planes[q].normal) >= 0) holds |= 1U << q;
   HiddenGroups groups;
-  group_hidden(around, p, holds, groups);
+  group_hidden(around, offset_of(p.x), holds, groups);
 
   // Visible nodes; the lane of the mass is lent to the weight.
   const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
+  Node kept, lent;
+  for (auto& part : kept.part) part = typename Node::Register{} + Real(1);
+  kept[node_lane::near_wall] = 0;
+  lent.clear();
+  lent[node_lane::near_wall] = 1;
   Node visible[27];
   Real least = std::numeric_limits<Real>::max();
   for (int n = 0; n < 27; ++n) {
-    if (around.seen.hidden >> n & 1) {
-      visible[n].clear();
-      continue;
-    }
-    visible[n] = corner[n % 3 + 6 * (n / 3 % 3) + 36 * (n / 9)];
-    visible[n][node_lane::near_wall] = 1;
-    least = std::min(least, visible[n][fill]);
+    const Node& node = corner[n % 3 + 6 * (n / 3 % 3) + 36 * (n / 9)];
+    const bool hidden = (around.seen.hidden >> n & 1) != 0;
+    const Real shows = hidden ? Real(0) : Real(1);
+    for (int r = 0; r < Node::registers; ++r)
+      visible[n].part[r] = shows * (node.part[r] * kept.part[r] + lent.part[r]);
+    if (!hidden) least = std::min(least, node[fill]);
   }
   Node sum;
   typename Node::Half moment[3];

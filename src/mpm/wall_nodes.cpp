@@ -90,6 +90,15 @@ const std::array<Targets, sample_groups>& spline_samples() {
 int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x, const Vec3& seen_at,
                   WallPlane* out, int max) {
   const auto patches = sight.stencils.patches_of(record);
+  if (patches.size() == 1 && patches[0].near.covered() && max > 0) {
+    const WallPatch& plane = sight.plane(patches[0]);
+    const double height = height_over(plane, seen_at);
+    if (!(std::abs(height) < plane_reach)) return 0;
+    const double side = is_above(height) ? 1 : -1;
+    out[0] = {-side * plane.normal, std::max(0.0, side * height_over(plane, x)), plane.wall,
+              patches[0].patch};
+    return 1;
+  }
   int written = 0;
   while (written < max) {
     Candidate best{plane_reach, nullptr, Vec3::Zero()};
