@@ -189,30 +189,12 @@ void PointStore<Real>::sort() {
     bin_begin_.push_back(cell_begin_[b].back());
   }
 
-  // A step begins: what `before` held is history, so its memory lends itself, a piece of a column at a time.
   const std::size_t count = bin_begin_.back();
-  const auto reorder = [&]<class T>(std::vector<T>& column) {
-    constexpr std::size_t piece = sizeof(Place);
-    const auto move_piece = [&](std::size_t offset, auto length) {
-      char* data = reinterpret_cast<char*>(column.data()) + offset;
-      parallel_for(
-          count,
-          [&](std::size_t n) { std::memcpy(before[n].data(), data + sizeof(T) * order_[n], length()); },
-          4096);
-      parallel_for(
-          count, [&](std::size_t n) { std::memcpy(data + sizeof(T) * n, before[n].data(), length()); }, 4096);
-    };
-    for (std::size_t offset = 0; offset + piece <= sizeof(T); offset += piece)
-      move_piece(offset, std::integral_constant<std::size_t, piece>());
-    if constexpr (sizeof(T) % piece != 0)
-      move_piece(sizeof(T) / piece * piece, std::integral_constant<std::size_t, sizeof(T) % piece>());
-    column.resize(count);
-  };
-  reorder(points);
   reorder(key);
   reorder(id);
   reorder(mass);
   if (!fines.empty()) reorder(fines);
+  reorder_points();  // uses order_ up
   before.resize(count);
   parallel_for(
       count,
@@ -221,6 +203,62 @@ void PointStore<Real>::sort() {
       },
       4096);
   dead_ = 0;
+}
+
+/// Puts a column into the order of order_. A step begins: what `before` held is history, so that its memory
+/// lends itself.
+template <class Real>
+template <class T>
+void PointStore<Real>::reorder(std::vector<T>& column) {
+  static_assert(sizeof(T) <= sizeof(Place));
+  const std::size_t count = bin_begin_.back();
+  char* lent = reinterpret_cast<char*>(before.data());
+  parallel_for(
+      count, [&](std::size_t n) { std::memcpy(lent + sizeof(T) * n, &column[order_[n]], sizeof(T)); }, 4096);
+  column.resize(count);
+  parallel_for(
+      count, [&](std::size_t n) { std::memcpy(&column[n], lent + sizeof(T) * n, sizeof(T)); }, 4096);
+}
+
+/// The same for the points, as many at a time as the lent memory holds. Those that stand where a piece goes
+/// but belong behind it move to where others came from; their entry in order_, no longer needed, then says
+/// where.
+template <class Real>
+void PointStore<Real>::reorder_points() {
+  const std::size_t count = bin_begin_.back();
+  std::vector<bool> waits(slots(), false);  // per place: a point that has yet to move
+  for (std::size_t n = 0; n < count; ++n) waits[order_[n]] = true;
+  char* lent = reinterpret_cast<char*>(before.data());
+  const std::size_t piece = std::max<std::size_t>(1, before.size() * sizeof(Place) / sizeof(Point));
+  for (std::size_t begin = 0; begin < count; begin += piece) {
+    const std::size_t end = std::min(count, begin + piece);
+    parallel_for(
+        end - begin,
+        [&](std::size_t n) {
+          std::uint32_t& from = order_[begin + n];
+          while (from < begin) from = order_[from];
+          std::memcpy(lent + sizeof(Point) * n, &points[from], sizeof(Point));
+        },
+        4096);
+    for (std::size_t n = begin; n < end; ++n) waits[order_[n]] = false;
+    std::size_t next = begin;  // place after the last one whose point came from behind
+    std::vector<std::array<std::uint32_t, 2>> moves;
+    for (std::size_t place = begin; place < end; ++place) {
+      if (!waits[place]) continue;
+      while (order_[next] < end) ++next;
+      moves.push_back({static_cast<std::uint32_t>(place), order_[next++]});
+    }
+    for (const auto& [from, to] : moves) {
+      points[to] = points[from];
+      order_[from] = to;
+      waits[to] = true;
+    }
+    parallel_for(
+        end - begin,
+        [&](std::size_t n) { std::memcpy(&points[begin + n], lent + sizeof(Point) * n, sizeof(Point)); },
+        4096);
+  }
+  points.resize(count);
 }
 
 template <class Real>

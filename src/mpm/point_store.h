@@ -109,6 +109,9 @@ class PointStore {
   void list_strays();
   void order_by_cell();
   void sort();
+  template <class T>
+  void reorder(std::vector<T>& column);
+  void reorder_points();
   /// Calls body(slot) for each point of a block, in the fixed order.
   template <class Body>
   void for_each(const PointBlock& block, const Body& body) const {
