@@ -45,13 +45,13 @@ void ExplicitMpm<Real>::read_nodes(FluidNodes& out) const {
           if (node[mass] == 0) continue;
           const double m = static_cast<double>(node[mass]);
           const double volume =
-              static_cast<double>(node[fill] * grid_.open(slot)[n] * grid_.void_fraction(slot)[n]) * cell;
+              static_cast<double>(node[fill] * open_fraction(slot, n) * grid_.void_fraction(slot)[n]) * cell;
           const double density = volume > 0 ? m / volume : fluid.density;
           const double e = static_cast<double>(node[dilation]);
           out.x[to] = layout_.node_position(place + Vec3i(n & 3, (n >> 2) & 3, n >> 4));
           out.mass[to] = m;
           out.v[to] = vector_at(node, velocity) + vector_at(node, change);
-          out.open_volume[to] = static_cast<double>(grid_.open(slot)[n]) * cell;
+          out.open_volume[to] = static_cast<double>(open_fraction(slot, n)) * cell;
           out.pressure[to] = -density * sound_speed_ * sound_speed_ * e / (1 + e);
           out.fill[to] = static_cast<double>(node[fill]);
           out.viscosity[to] = viscosity_of(density * (1 + e));
@@ -73,13 +73,14 @@ void ExplicitMpm<Real>::add_impulse(std::span<const Vec3> impulse) {
 template <class Real>
 void ExplicitMpm<Real>::set_void_fraction(std::span<const double> void_fraction) {
   has_void_ = true;
+  grid_.hold_void_fractions();
   const std::vector<std::int32_t>& active = grid_.active();
   parallel_for(
       active.size(),
       [&](std::size_t b) {
         const std::int32_t slot = grid_.slot_of(active[b]);
         Node* nodes = grid_.nodes(slot);
-        Real* held = grid_.void_fraction(slot);
+        Real* held = grid_.held_void_fraction(slot);
         std::size_t from = node_begin_[b];
         for (int n = 0; n < BlockLayout::nodes; ++n) {
           if (nodes[n][node_lane::mass] == 0) continue;

@@ -264,10 +264,10 @@ void ExplicitMpm<Real>::exchange(StateArchive& archive) {
   }
   limits_ = step_limits(config_, gravity_, largest_kinematic_viscosity_);
   grid_.restore(active, [&](std::int32_t slot) { prepare_block(slot); });
-  for (const std::int32_t block : active)
-    std::fill_n(grid_.void_fraction(grid_.slot_of(block)), BlockLayout::nodes, Real(1));
+  grid_.forget_void_fractions();
+  if (has_void_) grid_.hold_void_fractions();
   for (std::size_t b = 0; b < voids.size(); ++b)
-    std::copy(voids[b].begin(), voids[b].end(), grid_.void_fraction(grid_.slot_of(active[b])));
+    std::copy(voids[b].begin(), voids[b].end(), grid_.held_void_fraction(grid_.slot_of(active[b])));
   node_begin_.assign(1, 0);
 }
 

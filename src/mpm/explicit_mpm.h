@@ -170,6 +170,10 @@ class ExplicitMpm final : public FluidSystem {
   void check_reports();
   void pour_loads(std::size_t lists);
 
+  Real open_fraction(std::int32_t slot, int node) const {
+    const std::int32_t stencil = grid_.stencil(slot)[node];
+    return stencil < 0 ? Real(1) : static_cast<Real>(field_->open_fraction_at(stencil));
+  }
   Vec3 velocity_of(const Point& p) const { return Vec3(p.v[0], p.v[1], p.v[2]); }
   /// Of fluid at a node [Pa s]; fines are what makes it denser.
   /// @param density  without pressure [kg/m3]

@@ -60,30 +60,34 @@ void NodeBlocks<Real>::replace_active(const std::function<void(std::int32_t slot
       block_.push_back(block);
       const std::size_t n = block_.size() * BlockLayout::nodes;
       data_.resize(n);
-      open_.resize(n);
-      void_.resize(n);
+      if (!void_.empty()) void_.resize(n);
       stencil_.resize(n);
     } else {
       slot = free_.back();
       free_.pop_back();
       block_[static_cast<std::size_t>(slot)] = block;
     }
-    std::fill_n(open(slot), BlockLayout::nodes, Real(1));
-    std::fill_n(void_fraction(slot), BlockLayout::nodes, Real(1));
+    if (!void_.empty()) std::fill_n(held_void_fraction(slot), BlockLayout::nodes, Real(1));
     std::fill_n(stencil(slot), BlockLayout::nodes, BlockLayout::none);
     prepare(slot);
   }
   active_.swap(wanted_);
 }
 
-/// Room for so many slots, and an eighth more when that is needed at all, not twice as much.
+template <class Real>
+void NodeBlocks<Real>::hold_void_fractions() {
+  if (!void_.empty()) return;
+  void_.reserve(data_.capacity());
+  void_.resize(data_.size(), Real(1));
+}
+
+/// Room for so many slots, and a sixteenth more when that is needed at all, not twice as much.
 template <class Real>
 void NodeBlocks<Real>::make_room(std::size_t slots) {
   if (slots * BlockLayout::nodes <= data_.capacity()) return;
-  const std::size_t nodes = (data_.empty() ? slots : slots + slots / 8) * BlockLayout::nodes;
+  const std::size_t nodes = (data_.empty() ? slots : slots + slots / 16) * BlockLayout::nodes;
   data_.reserve(nodes);
-  open_.reserve(nodes);
-  void_.reserve(nodes);
+  if (!void_.empty()) void_.reserve(nodes);
   stencil_.reserve(nodes);
 }
 
@@ -91,7 +95,7 @@ template <class Real>
 std::size_t NodeBlocks<Real>::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(slot_) + bytes(block_) + bytes(free_) + bytes(active_) + bytes(wanted_) + bytes(mark_) +
-         bytes(data_) + bytes(open_) + bytes(void_) + bytes(stencil_);
+         bytes(data_) + bytes(void_) + bytes(stencil_);
 }
 
 template class NodeBlocks<float>;

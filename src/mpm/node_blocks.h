@@ -2,8 +2,9 @@
 /// The sparse grid: node data of the blocks that points reach in this step.
 ///
 /// Blocks keep their slot while they stay active, so that what is held per node (void fraction) and what
-/// belongs to the place (open fraction beside walls) stays with them.
+/// belongs to the place (the record of the walls there) stays with them.
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -31,7 +32,7 @@ class NodeBlocks {
   explicit NodeBlocks(const BlockLayout& layout);
 
   /// Makes the blocks that the points reach active, and no others.
-  /// @param prepare  called for each block that was not active before: fill its open fractions
+  /// @param prepare  called for each block that was not active before: fill its stencils
   void activate(const std::vector<PointBlock>& blocks, const std::function<void(std::int32_t slot)>& prepare);
 
   /// Makes exactly these blocks (ascending) active, as after loading a saved state.
@@ -48,16 +49,17 @@ class NodeBlocks {
   const Lanes<Real>* nodes(std::int32_t slot) const {
     return &data_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
   }
-  Real* open(std::int32_t slot) { return &open_[static_cast<std::size_t>(slot) * BlockLayout::nodes]; }
-  const Real* open(std::int32_t slot) const {
-    return &open_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
-  }
-  Real* void_fraction(std::int32_t slot) {
-    return &void_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
-  }
+  /// Per node: 1 until fractions are held.
   const Real* void_fraction(std::int32_t slot) const {
+    return void_.empty() ? no_rocks.data() : &void_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  /// @pre hold_void_fractions() was called
+  Real* held_void_fraction(std::int32_t slot) {
     return &void_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
   }
+  /// From now on nodes keep a void fraction, 1 at first.
+  void hold_void_fractions();
+  void forget_void_fractions() { void_.clear(); }
   /// Record of walls (WallField::stencil) per cell of a block.
   std::int32_t* stencil(std::int32_t slot) {
     return &stencil_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
@@ -69,6 +71,11 @@ class NodeBlocks {
   std::size_t memory_bytes() const;
 
  private:
+  static constexpr std::array<Real, BlockLayout::nodes> no_rocks = [] {
+    std::array<Real, BlockLayout::nodes> ones{};
+    ones.fill(1);
+    return ones;
+  }();
   void make_room(std::size_t slots);
   void replace_active(const std::function<void(std::int32_t slot)>& prepare);
 
@@ -80,7 +87,7 @@ class NodeBlocks {
   std::vector<std::uint32_t> mark_;  ///< per block: step at which it was last wanted
   std::uint32_t step_ = 0;
   std::vector<Lanes<Real>> data_;
-  std::vector<Real> open_, void_;
+  std::vector<Real> void_;  ///< empty while nobody set any
   std::vector<std::int32_t> stencil_;
 };
 

@@ -87,9 +87,7 @@ void ExplicitMpm<Real>::prepare_block(std::int32_t slot) {
     for (int j = 0; j < width.y(); ++j)
       for (int i = 0; i < width.x(); ++i) {
         const Vec3i node = BlockLayout::edge * place + Vec3i(i, j, k);
-        const int n = i + 4 * j + 16 * k;
-        grid_.stencil(slot)[n] = field_->stencil(node - Vec3i::Ones());
-        grid_.open(slot)[n] = static_cast<Real>(field_->open_fraction(node));
+        grid_.stencil(slot)[i + 4 * j + 16 * k] = field_->stencil(node - Vec3i::Ones());
       }
 }
 
@@ -231,7 +229,6 @@ template <class Real>
 std::uint32_t ExplicitMpm<Real>::finish_nodes(std::int32_t slot) {
   using namespace node_lane;
   Node* nodes = grid_.nodes(slot);
-  const Real* open = grid_.open(slot);
   const Real* void_fraction = grid_.void_fraction(slot);
   const Real per_cell = static_cast<Real>(std::pow(config_.spacing, -3));
   std::uint32_t with_mass = 0;
@@ -249,7 +246,7 @@ std::uint32_t ExplicitMpm<Real>::finish_nodes(std::int32_t slot) {
       node[centre + r] *= per_mass;
     }
     node[dilation] *= per_mass;
-    node[fill] *= per_cell / (open[n] * void_fraction[n]);
+    node[fill] *= per_cell / (open_fraction(slot, n) * void_fraction[n]);
   }
   return with_mass;
 }

@@ -205,6 +205,10 @@ double WallField::open_fraction(const Vec3i& node) const {
   return record < 0 ? 1.0 : implementation_->nodes[static_cast<std::size_t>(record)].open;
 }
 
+double WallField::open_fraction_at(int stencil) const {
+  return implementation_->nodes[static_cast<std::size_t>(stencil)].open;
+}
+
 std::optional<WallHit> WallField::first_hit(int stencil, const Vec3& a, const Vec3& b) const {
   const Implementation& field = *implementation_;
   if (field.stencils.records.empty()) return std::nullopt;

@@ -81,6 +81,8 @@ class WallField {
   /// Fraction of the node's quadratic B-spline support (weighted) that is on the node's side of the walls
   /// near it, 1 far from walls; never below 0.02. Weighted by the spline, so that full water reads fill = 1.
   double open_fraction(const Vec3i& node) const;
+  /// The same, for the node base + 1 of a stencil.
+  double open_fraction_at(int stencil) const;
 
   /// First wall met on the way from a to b (double precision, watertight over shared edges). `stencil` is
   /// that of a, or -1; paths that leave its surroundings are followed through the cells they cross. Walls

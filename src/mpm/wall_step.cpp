@@ -97,7 +97,8 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
       planes = field_->planes_of_node(where);
       if (!planes.empty()) {
         at = layout_.node_position(where);
-        volume = static_cast<double>(node[fill] * grid_.open(slot)[n] * grid_.void_fraction(slot)[n]) * cell;
+        volume =
+            static_cast<double>(node[fill] * open_fraction(slot, n) * grid_.void_fraction(slot)[n]) * cell;
         close_pressure(node, volume, planes, at, impulses);
       }
     }
