@@ -140,6 +140,7 @@ void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const
   }
   chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
   chunk.mass_seconds += rocks.mass[i] * time.dt;
+  chunk.gravity_work += rocks.mass[i] * scene.gravity.dot(move);
   if (!fluid_force.empty()) {
     chunk.fluid_impulse += fluid_force[i] * time.dt;
     chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * time.dt;
