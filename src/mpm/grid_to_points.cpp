@@ -290,7 +290,7 @@ void ExplicitMpm<Real>::check_reports() {
       throw NumericalError("water.grid_to_points", now,
                            fmt::format("point {} moves {:.2g} cells in a step (limit {})", number,
                                        static_cast<double>(r.move), largest_move),
-                           "raise 'fastest_speed'");
+                           "raise 'fastest_speed' or lower 'courant'");
     if (r.left_grid)
       throw NumericalError("water.grid_to_points", now,
                            fmt::format("point {} left the grid around the domain", number),

@@ -34,9 +34,9 @@ struct ExtremeRung {
 
 struct ExtremeCase {
   std::string name, title, group, vary, expect, scene;
-  std::string default_words;               ///< setting that a user gets without asking; empty: none
-  std::optional<double> default_number;    ///< the same as a number
-  std::vector<ExtremeRung> rungs;          ///< easy to hard
+  std::string default_words;             ///< setting that a user gets without asking; empty: none
+  std::optional<double> default_number;  ///< the same as a number
+  std::vector<ExtremeRung> rungs;        ///< easy to hard
   bool good() const;
   /// The last rung that ran before the first that did not; null if none ran.
   const ExtremeRung* frontier() const;

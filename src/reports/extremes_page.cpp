@@ -114,8 +114,8 @@ std::string extremes_markdown(const ExtremesRecord& record) {
       "| case | group | what | last that ran | first that did not | margin of the defaults | as expected |\n"
       "|---|---|---|---|---|---|---|\n";
   for (const ExtremeCase& c : record.cases)
-    out += fmt::format("| [{0}](../validation/extremes/{0}.yaml) | {1} | {2} | {3} | {4} | {5} | {6} |\n", c.name,
-                       c.group, cell(c.title), frontier_words(c), beyond_words(c), cell(c.margin()),
+    out += fmt::format("| [{0}](../validation/extremes/{0}.yaml) | {1} | {2} | {3} | {4} | {5} | {6} |\n",
+                       c.name, c.group, cell(c.title), frontier_words(c), beyond_words(c), cell(c.margin()),
                        c.good() ? "yes" : "NO");
   for (const ExtremeCase& c : record.cases) {
     out += fmt::format("\n## {}: {}\n\nExpected: {}.\n\n", c.name, c.title, c.expect);
@@ -124,9 +124,9 @@ std::string extremes_markdown(const ExtremesRecord& record) {
         "|---|---|---|---|---|---|---|---|\n",
         c.vary);
     for (const ExtremeRung& r : c.rungs)
-      out += fmt::format("| {} | {} | {} | {:.3g} | {:.2g} | {} | {} | {} |\n", r.setting, outcome_of(r),
-                         figures(r), r.steps, r.seconds, cell(r.message), cell(remedy_of(r)),
-                         cell(foreseen(r)));
+      out +=
+          fmt::format("| {} | {} | {} | {:.3g} | {:.2g} | {} | {} | {} |\n", r.setting, outcome_of(r),
+                      figures(r), r.steps, r.seconds, cell(r.message), cell(remedy_of(r)), cell(foreseen(r)));
   }
   return out;
 }

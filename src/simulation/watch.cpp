@@ -38,6 +38,7 @@ std::size_t most_energetic(const Rocks& rocks) {
 
 Watch::Watch(const Parts& parts, const TimeStep& step) : parts_(parts), step_(step) {
   const auto& walls = parts.walls->all();
+  if (parts.water) water_step_ = parts.water->limits().step;
   if (parts.rocks) rock_interval_ = scene_steps(rock_steps_per_look, step.rock_substeps);
   if (parts.water && std::none_of(walls.begin(), walls.end(), drags_water)) {
     water_interval_ = scene_steps(water_steps_per_look, step.fluid_substeps);
@@ -78,11 +79,12 @@ void Watch::look_at_rocks(double t) const {
 
 void Watch::look_at_step(double t) const {
   const FluidStepLimits& limits = parts_.water->limits();
-  if (limits.step >= step_.dt_fluid() * (1 - 1e-9)) return;
+  if (limits.step >= std::min(water_step_, step_.dt_fluid()) * (1 - 1e-9)) return;
   throw NumericalError(
       "inflow", t,
-      fmt::format("water that has come in is so thick that its steps may have {:.3g} s ({}); the run has {:.3g} s",
-                  limits.step, limits.governed_by, step_.dt_fluid()),
+      fmt::format(
+          "water that has come in is so thick that its steps may have {:.3g} s ({}); the run has {:.3g} s",
+          limits.step, limits.governed_by, step_.dt_fluid()),
       fmt::format("lower 'courant' by a factor of {:.3g}, the fines, or 'viscosity'",
                   step_.dt_fluid() / limits.step));
 }
@@ -99,13 +101,17 @@ void Watch::look_at_water(double t) {
   const double created = water.kinetic_energy() - given;
   const double expected_speed = 0.1 * water.limits().sound_speed;
   const double all = water.kinetic_added() + std::max(0.0, water_gravity_work_) + from_rocks;
-  if (created <= most_created * all + least_created * 0.5 * water.total_mass() * expected_speed * expected_speed)
+  if (created <=
+      most_created * all + least_created * 0.5 * water.total_mass() * expected_speed * expected_speed)
     return;
-  throw NumericalError("water.grid_to_points", t,
-                       fmt::format("water has {:.3g} J that nothing gave it, its fastest point {:.3g} m/s "
-                                   "(limit {:.0f} % of {:.3g} J)",
-                                   created, water.largest_speed(), 100 * most_created, all),
-                       "lower 'courant'");
+  throw NumericalError(
+      "water.grid_to_points", t,
+      fmt::format("water moves with {:.3g} J more than gravity, inflow and rocks gave it (limit "
+                  "{:.0f} % of {:.3g} J), its fastest point at {:.3g} m/s with sound at {:.3g} m/s",
+                  created, 100 * most_created, all, water.largest_speed(), water.limits().sound_speed),
+      water.limits().viscous < water.limits().acoustic
+          ? "set 'wall_slip: no_slip', as water this thick does, or lower 'viscosity'"
+          : "raise 'fastest_bulk_speed' or 'sound_speed', or lower 'courant'");
 }
 
 void Watch::exchange(StateArchive& a) {

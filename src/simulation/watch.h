@@ -40,6 +40,7 @@ class Watch {
   const Parts& parts_;
   TimeStep step_;
   std::uint64_t rock_interval_ = 0, water_interval_ = 0;  ///< scene steps from look to look; 0 = never
+  double water_step_ = 0;                                 ///< longest that the water allowed at the start [s]
   double looked_at_ = 0;                                  ///< water [s]
   Vec3 momentum_ = Vec3::Zero();                          ///< of water then [N s]
   double water_gravity_work_ = 0;                         ///< since start [J]

@@ -38,9 +38,8 @@ void ExtremeConfig::keys(Schema& s) {
   if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
     s.problem("group", fmt::format("is '{}'", group), fmt::format("one of {}", fmt::join(groups, ", ")), "");
   if (over.empty()) s.problem("over", "has no rung", "a frontier needs a ladder", "add rungs");
-  const bool stops = std::any_of(over.begin(), over.end(), [](const ExtremeSetting& r) {
-    return r.expect == ExtremeOutcome::stops;
-  });
+  const bool stops = std::any_of(over.begin(), over.end(),
+                                 [](const ExtremeSetting& r) { return r.expect == ExtremeOutcome::stops; });
   if (stops && remedy.empty())
     s.problem("remedy", "is missing", "a rung is expected to stop", "give what its message asks for");
 }

@@ -132,17 +132,17 @@ std::string quoted_key(const std::string& setting) {
 }
 
 void try_remedy(const ExtremeConfig& config, const std::vector<std::string>& settings, ExtremeRung& rung) {
-  if (config.remedy.empty() || rung.outcome == ExtremeOutcome::runs ||
-      rung.outcome == ExtremeOutcome::broken)
+  if (config.remedy.empty() || rung.outcome == ExtremeOutcome::runs || rung.outcome == ExtremeOutcome::broken)
     return;
   std::vector<std::string> with = settings;
   for (const std::string& setting : config.remedy) {
     with.push_back(setting);
     rung.remedy += (rung.remedy.empty() ? "" : ", ") + setting;
   }
-  rung.remedy_named = std::any_of(config.remedy.begin(), config.remedy.end(), [&](const std::string& setting) {
-    return rung.message.find(quoted_key(setting)) != std::string::npos;
-  });
+  rung.remedy_named =
+      std::any_of(config.remedy.begin(), config.remedy.end(), [&](const std::string& setting) {
+        return rung.message.find(quoted_key(setting)) != std::string::npos;
+      });
   // The remedy of a step that was too long on purpose is a shorter one: the default.
   rung.remedy_works = run_hard(config.scene, with, std::nullopt).outcome == ExtremeOutcome::runs;
 }
@@ -208,8 +208,11 @@ ExtremeCase run_extreme(const Extreme& what, const ExtremeOptions& options) {
     if (options.told) options.told(out, out.rungs.back());
   }
   if (!options.only.empty() && out.rungs.empty())
-    throw InputError({{"--rung", 0, 0}, "rung", fmt::format("'{}' is not a rung of {}", options.only, what.name),
-                      "", "see sluice validate --extremes --list"});
+    throw InputError({{"--rung", 0, 0},
+                      "rung",
+                      fmt::format("'{}' is not a rung of {}", options.only, what.name),
+                      "",
+                      "see sluice validate --extremes --list"});
   return out;
 }
 
