@@ -202,6 +202,8 @@ struct DemSystem::Implementation {
   void drift(const StepTime& time, bool goes_on);
   void take_reactions(std::size_t c);
   void begin_step(DemChunk& chunk, std::size_t i, const StepTime& time);
+  void turn_rocks(std::size_t begin, std::size_t end, double dt);
+  void count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt);
   void end_step(std::size_t i, const StepTime& time);
   Body body_of(std::size_t i) const {
     return {rocks.x[i], rocks.radius[i], rocks.v[i],        rocks.mass[i],

@@ -111,12 +111,12 @@ void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
       if (goes_on) end_step(i, time);
       begin_step(chunks[c], i, time);
     }
+    if (!only_spheres) turn_rocks(begin, end, time.dt);
+    if (!fluid_force.empty()) count_fluid(chunks[c], begin, end, time.dt);
   });
 }
 
 void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const StepTime& time) {
-  // Free rotation changes the angular velocity within a step, by far less than this.
-  constexpr double rotation_margin = 1.05;
   kick(i, 0.5 * time.dt);
   const Vec3 move = time.dt * rocks.v[i];
   const double most = longest_move * 0.5 * rocks.size[i];
@@ -126,13 +126,6 @@ void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const
                                      move.norm() / (0.5 * rocks.size[i]), longest_move),
                          "raise 'steps_per_contact' or check the speeds that enter");
   rocks.x[i] += move;
-  if (!only_spheres) {
-    const RockShape& shape = shape_of(i);
-    if (!shape.is_sphere()) rotate_freely(rocks.q[i], angular[i], per_inertia[i], time.dt);
-    rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
-    turned_shapes[i] = {rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
-    rim_speed[i] = rotation_margin * rocks.w[i].norm() * rocks.radius[i];
-  }
   Vec3 moved = rocks.x[i] - listed_at[i];
   if (periodic) {
     rocks.x[i] = scene.domain.wrapped(rocks.x[i]);
@@ -141,9 +134,12 @@ void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const
   chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
   chunk.mass_seconds += rocks.mass[i] * time.dt;
   chunk.gravity_work += rocks.mass[i] * scene.gravity.dot(move);
-  if (!fluid_force.empty()) {
-    chunk.fluid_impulse += fluid_force[i] * time.dt;
-    chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * time.dt;
+}
+
+void DemSystem::Implementation::count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt) {
+  for (std::size_t i = begin; i < end; ++i) {
+    chunk.fluid_impulse += fluid_force[i] * dt;
+    chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * dt;
   }
 }
 
