@@ -16,8 +16,7 @@ namespace sluice {
 
 namespace {
 
-/// Where a rung is cut short, so that none takes longer than some ten seconds on one core.
-constexpr double most_particle_steps = 1.5e7;
+/// Where a rung of few particles is cut short.
 constexpr std::uint64_t most_steps = 400'000;
 /// Mass that may be missing, of all that came in: roundings of a sum.
 constexpr double lost_mass = 1e-12;
@@ -77,7 +76,7 @@ std::string missing_mass(const Parts& parts) {
   return "";
 }
 
-void run_to_end(const ProcessConfig& config, Simulation& simulation, ExtremeRung& out) {
+void run_to_end(double duration, double particle_steps, Simulation& simulation, ExtremeRung& out) {
   const Parts& parts = simulation.parts();
   const double dt = simulation.time_step().dt;
   const auto read = [&] {
@@ -89,13 +88,13 @@ void run_to_end(const ProcessConfig& config, Simulation& simulation, ExtremeRung
     }
   };
   try {
-    while (simulation.time() + 0.5 * dt < config.duration) {
+    while (simulation.time() + 0.5 * dt < duration) {
       simulation.step();
       if (parts.water)
         out.mach = std::max(out.mach, parts.water->largest_speed() / parts.water->limits().sound_speed);
-      if (simulation.rock_steps() + simulation.point_steps() > most_particle_steps ||
+      if (simulation.rock_steps() + simulation.point_steps() > particle_steps ||
           simulation.steps() > most_steps) {
-        out.message = fmt::format("cut short at {:.2g} of {:g} s", simulation.time(), config.duration);
+        out.message = fmt::format("cut short at {:.2g} of {:g} s", simulation.time(), duration);
         break;
       }
     }
@@ -131,12 +130,11 @@ std::string quoted_key(const std::string& setting) {
   return "'" + path.substr(path.rfind('.') + 1) + "'";
 }
 
-void try_remedy(const ExtremeConfig& config, const std::vector<std::string>& settings, ExtremeRung& rung) {
+void try_remedy(const ExtremeConfig& config, HardRun run, ExtremeRung& rung) {
   if (config.remedy.empty() || rung.outcome == ExtremeOutcome::runs || rung.outcome == ExtremeOutcome::broken)
     return;
-  std::vector<std::string> with = settings;
   for (const std::string& setting : config.remedy) {
-    with.push_back(setting);
+    run.overrides.push_back(setting);
     rung.remedy += (rung.remedy.empty() ? "" : ", ") + setting;
   }
   rung.remedy_named =
@@ -144,23 +142,23 @@ void try_remedy(const ExtremeConfig& config, const std::vector<std::string>& set
         return rung.message.find(quoted_key(setting)) != std::string::npos;
       });
   // The remedy of a step that was too long on purpose is a shorter one: the default.
-  rung.remedy_works = run_hard(config.scene, with, std::nullopt).outcome == ExtremeOutcome::runs;
+  run.step_share.reset();
+  rung.remedy_works = run_hard(run).outcome == ExtremeOutcome::runs;
 }
 
 }  // namespace
 
-ExtremeRung run_hard(const std::filesystem::path& process, const std::vector<std::string>& overrides,
-                     std::optional<double> step_share) {
+ExtremeRung run_hard(const HardRun& run) {
   ExtremeRung out;
   const auto start = std::chrono::steady_clock::now();
   try {
-    const ProcessConfig config = read_process(process, overrides);
+    const ProcessConfig config = read_process(run.process, run.overrides);
     BuiltProcess built = build_parts(config);
     out.warnings = built.warnings;
     std::optional<TimeStep> step;
-    if (step_share) step = step_at(built.parts, config, *step_share);
+    if (run.step_share) step = step_at(built.parts, config, *run.step_share);
     Simulation simulation(std::move(built.parts), step);
-    run_to_end(config, simulation, out);
+    run_to_end(config.duration, run.particle_steps, simulation, out);
   } catch (const InputError& e) {
     out.outcome = ExtremeOutcome::refused;
     out.message = e.what();
@@ -195,15 +193,15 @@ ExtremeCase run_extreme(const Extreme& what, const ExtremeOptions& options) {
   for (const ExtremeSetting& setting : config.over) {
     if (options.quick && !setting.quick) continue;
     if (!options.only.empty() && setting.at != options.only) continue;
-    const std::vector<std::string> settings = settings_of(config, setting);
-    std::optional<double> share;
-    if (varies_step(config)) share = setting.number;
-    ExtremeRung rung = run_hard(config.scene, settings, share);
+    HardRun run{config.scene, settings_of(config, setting), std::nullopt,
+                options.quick ? quick_particle_steps : most_particle_steps};
+    if (varies_step(config)) run.step_share = setting.number;
+    ExtremeRung rung = run_hard(run);
     rung.setting = setting.at;
     rung.number = setting.number;
     rung.expected = setting.expect;
     rung.command = fmt::format("sluice validate --extremes {} --rung '{}'", what.name, setting.at);
-    try_remedy(config, settings, rung);
+    try_remedy(config, run, rung);
     out.rungs.push_back(std::move(rung));
     if (options.told) options.told(out, out.rungs.back());
   }
