@@ -16,8 +16,8 @@ namespace {
 constexpr const char* introduction =
     "Each case makes one setting of a small process harder, rung by rung. A rung runs to its end with every "
     "kilogram accounted for and every number finite; or it stops (exit code 3), or is refused (exit code 2), "
-    "with a message whose remedy was tried and works. The frontier is the last rung that ran before the "
-    "first that did not.";
+    "with a message whose remedy was tried and works. A rung of too many steps is cut short, and says where. "
+    "The frontier is the last rung that ran before the first that did not.";
 
 std::string provenance(const ExtremesRecord& r) {
   return fmt::format("Sluice {} (commit {}), {} `{}`, {} threads on {}", r.version, r.commit, r.compiler,

@@ -124,10 +124,13 @@ bool varies_step(const ExtremeConfig& config) {
   return std::find(config.vary.begin(), config.vary.end(), step_over_limit) != config.vary.end();
 }
 
-/// Last word of "water.courant=0.1", as a message quotes it.
-std::string quoted_key(const std::string& setting) {
+/// Whether a message quotes the key of "water.courant=0.1": with its path or without, alone or with a value.
+bool names_key(const std::string& message, const std::string& setting) {
   const std::string path = setting.substr(0, setting.find('='));
-  return "'" + path.substr(path.rfind('.') + 1) + "'";
+  for (const std::string& key : {path, path.substr(path.rfind('.') + 1)})
+    for (const char* end : {"'", ": "})
+      if (message.find("'" + key + end) != std::string::npos) return true;
+  return false;
 }
 
 void try_remedy(const ExtremeConfig& config, HardRun run, ExtremeRung& rung) {
@@ -138,9 +141,8 @@ void try_remedy(const ExtremeConfig& config, HardRun run, ExtremeRung& rung) {
     rung.remedy += (rung.remedy.empty() ? "" : ", ") + setting;
   }
   rung.remedy_named =
-      std::any_of(config.remedy.begin(), config.remedy.end(), [&](const std::string& setting) {
-        return rung.message.find(quoted_key(setting)) != std::string::npos;
-      });
+      std::any_of(config.remedy.begin(), config.remedy.end(),
+                  [&](const std::string& setting) { return names_key(rung.message, setting); });
   // The remedy of a step that was too long on purpose is a shorter one: the default.
   run.step_share.reset();
   rung.remedy_works = run_hard(run).outcome == ExtremeOutcome::runs;
