@@ -68,8 +68,11 @@ struct ValidateOptions {
   std::vector<std::string> scene_keys;
   int threads = 0;  ///< 0: all
   bool quick = false, list = false;
+  bool extremes = false;  ///< those of `validation/extremes/` instead
 };
 int validate_cases(const ValidateOptions& options);
+/// How far each extreme case goes before it stops: a frontier.
+int validate_extremes(const ValidateOptions& options);
 
 /// Exit code where a case of `sluice validate` misses its gate.
 inline constexpr int gate_failed = 5;

@@ -96,6 +96,8 @@ int main(int argc, char** argv) {
       app.add_subcommand("validate", "error against run time of the cases in validation/, and their gates");
   validate_command->add_option("cases", validate.names, "names of cases [all]");
   validate_command->add_flag("--quick", validate.quick, "first rungs only");
+  validate_command->add_flag("--extremes", validate.extremes,
+                             "how far hard settings go: the cases in validation/extremes/");
   validate_command->add_flag("--list", validate.list, "one case a line; run nothing");
   validate_command->add_option("--rung", validate.rung, "one rung of one case, by its setting");
   validate_command->add_option("--set", validate.scene_keys,
@@ -129,7 +131,8 @@ int main(int argc, char** argv) {
     if (explain_command->parsed()) return sluice::explain_keys(explain);
     if (converge_command->parsed()) return sluice::converge_process(converge);
     if (study_command->parsed()) return sluice::run_study(study);
-    if (validate_command->parsed()) return sluice::validate_cases(validate);
+    if (validate_command->parsed())
+      return validate.extremes ? sluice::validate_extremes(validate) : sluice::validate_cases(validate);
     return sluice::report_runs(report);
   });
 }

@@ -53,15 +53,18 @@ void DemSystem::Implementation::exchange_rocks(StateArchive& archive) {
   archive.value("now", now);
   archive.value("momentum_added", momentum_added);
   archive.value("momentum_removed", momentum_removed);
+  archive.value("energy_added", energy_added);
+  archive.value("energy_removed", energy_removed);
 }
 
 void DemSystem::Implementation::exchange_tallies(StateArchive& archive) {
-  std::vector<std::array<double, 11>> sums;
+  std::vector<std::array<double, 12>> sums;
   std::vector<std::array<double, 14>> loads;
   for (const DemChunk& c : chunks) {
-    std::array<double, 11> row{c.lost_normal,  c.lost_friction, c.wall_work, c.fluid_work,
+    std::array<double, 12> row{c.lost_normal,  c.lost_friction, c.wall_work, c.fluid_work,
                                c.mass_seconds, c.overlap_most,  c.elastic,   static_cast<double>(c.contacts)};
     put(row, 8, c.fluid_impulse);
+    row[11] = c.gravity_work;
     sums.push_back(row);
     for (std::size_t w = 0; w < c.loads.size(); ++w) {
       const WallLoad& load = c.loads[w];
@@ -94,6 +97,7 @@ void DemSystem::Implementation::exchange_tallies(StateArchive& archive) {
     chunk.elastic = row[6];
     chunk.contacts = static_cast<std::uint64_t>(row[7]);
     chunk.fluid_impulse = take(row, 8);
+    chunk.gravity_work = row[11];
     for (std::size_t w = 0; w < walls.size(); ++w) {
       const auto& flat = loads[c * walls.size() + w];
       chunk.loads.push_back({take(flat, 0), take(flat, 3), flat[6], flat[7]});

@@ -83,6 +83,7 @@ std::uint64_t DemSystem::add(const NewRock& rock) {
   s.margin.push_back(0);
   if (s.has_walls) s.near_walls.emplace_back();
   for (MovingWalls& part : s.moving) part.near.emplace_back();
+  s.energy_added += s.kinetic_energy(i);
   s.list_valid = false;
   return r.id.back();
 }
@@ -170,6 +171,7 @@ std::vector<RemovedRock> DemSystem::remove(std::span<const std::size_t> indices)
       removed.push_back(
           {r.id[i], r.x[i], r.v[i], r.size[i], r.mass[i], r.birth[i], r.wet_dose[i], r.source[i]});
       s.momentum_removed += r.mass[i] * r.v[i];
+      s.energy_removed += s.kinetic_energy(i);
       new_index[i] = -1;
       ++next;
     } else {

@@ -69,6 +69,7 @@ struct DemChunk {
   // since the run began
   double lost_normal = 0, lost_friction = 0, wall_work = 0, fluid_work = 0;  ///< [J]
   double mass_seconds = 0;                                                   ///< integral of the mass [kg s]
+  double gravity_work = 0;                                                   ///< [J]
   Vec3 fluid_impulse = Vec3::Zero();                                         ///< [N s]
   double overlap_most = 0;                                                   ///< of the radius
   std::vector<WallLoad> loads;                                               ///< one per wall
@@ -142,6 +143,7 @@ struct DemSystem::Implementation {
   std::uint64_t next_id = 0, steps = 0, lists = 0;
   double now = 0;                                                       ///< end of the last step [s]
   Vec3 momentum_added = Vec3::Zero(), momentum_removed = Vec3::Zero();  ///< since start [N s]
+  double energy_added = 0, energy_removed = 0;                          ///< kinetic, since start [J]
 
   std::vector<DemChunk> chunks;
   Histogram overlap_histogram;
@@ -176,6 +178,10 @@ struct DemSystem::Implementation {
   Superquadric superquadric(std::size_t i, const Vec3& x) const {
     const RockShape& shape = shape_of(i);
     return {x, rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
+  }
+  double kinetic_energy(std::size_t i) const {
+    const Vec3 w_body = rocks.q[i].conjugate() * rocks.w[i];
+    return 0.5 * rocks.mass[i] * rocks.v[i].squaredNorm() + 0.5 * w_body.cwiseAbs2().dot(inertia(i));
   }
   bool has_sphere_shape(int shape) const { return is_sphere[static_cast<std::size_t>(shape)] != 0; }
   bool is_blocky(std::size_t i) const { return has_blocky && has_faces(shape_of(i).blockiness); }

@@ -133,6 +133,7 @@ void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const
   }
   chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
   chunk.mass_seconds += rocks.mass[i] * time.dt;
+  chunk.gravity_work += rocks.mass[i] * scene.gravity.dot(move);
 }
 
 void DemSystem::Implementation::count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt) {

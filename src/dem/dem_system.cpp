@@ -100,10 +100,7 @@ DemEnergy DemSystem::energy() const {
   const Implementation& s = *implementation_;
   const Rocks& r = s.rocks;
   DemEnergy energy;
-  energy.kinetic = parallel_sum<double>(s.count(), [&](std::size_t i) {
-    const Vec3 w_body = r.q[i].conjugate() * r.w[i];
-    return 0.5 * r.mass[i] * r.v[i].squaredNorm() + 0.5 * w_body.cwiseAbs2().dot(s.inertia(i));
-  });
+  energy.kinetic = parallel_sum<double>(s.count(), [&](std::size_t i) { return s.kinetic_energy(i); });
   energy.potential = parallel_sum<double>(
       s.count(), [&](std::size_t i) { return -r.mass[i] * s.scene.gravity.dot(r.x[i]); });
   for (const DemChunk& chunk : s.chunks) {
@@ -112,7 +109,10 @@ DemEnergy DemSystem::energy() const {
     energy.dissipated_friction += chunk.lost_friction;
     energy.wall_work += chunk.wall_work;
     energy.fluid_work += chunk.fluid_work;
+    energy.gravity_work += chunk.gravity_work;
   }
+  energy.added = s.energy_added;
+  energy.removed = s.energy_removed;
   return energy;
 }
 

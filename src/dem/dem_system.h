@@ -53,6 +53,15 @@ struct DemStepLimits {
 struct DemEnergy {
   double kinetic = 0, elastic = 0, potential = 0;                                        ///< now [J]
   double dissipated_normal = 0, dissipated_friction = 0, wall_work = 0, fluid_work = 0;  ///< since start [J]
+  double gravity_work = 0;        ///< on rocks inside, since start [J]
+  double added = 0, removed = 0;  ///< kinetic, by add() and by remove(), since start [J]
+
+  /// Everything that gravity, walls, water and new rocks do not account for: zero but for the scheme's
+  /// error, negative where rocks left while they touched [J].
+  double created() const {
+    return kinetic + elastic + dissipated_normal + dissipated_friction - wall_work - fluid_work -
+           gravity_work - added + removed;
+  }
 };
 
 struct DemScene {

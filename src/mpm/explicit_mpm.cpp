@@ -92,6 +92,7 @@ std::uint64_t ExplicitMpm<Real>::add(const NewPoint& point) {
   }
   store_.add(p, cell_key, next_id_, point.mass, point.fines_mass);
   momentum_added_ += point.mass * velocity_of(p);
+  kinetic_added_ += 0.5 * point.mass * velocity_of(p).squaredNorm();
   return next_id_++;
 }
 
@@ -165,6 +166,7 @@ std::vector<RemovedPoint> ExplicitMpm<Real>::remove_slots(std::vector<std::uint3
     removed.push_back({store_.id[slot], position(p.x, store_.key[slot]), velocity_of(p), store_.mass[slot],
                        fines_of(slot)});
     momentum_removed_ += store_.mass[slot] * velocity_of(p);
+    kinetic_removed_ += 0.5 * store_.mass[slot] * velocity_of(p).squaredNorm();
     store_.remove(slot);
   }
   return removed;
@@ -235,6 +237,8 @@ void ExplicitMpm<Real>::exchange(StateArchive& archive) {
   archive.value("gravity_impulse", gravity_impulse_);
   archive.value("momentum_added", momentum_added_);
   archive.value("momentum_removed", momentum_removed_);
+  archive.value("kinetic_added", kinetic_added_);
+  archive.value("kinetic_removed", kinetic_removed_);
   archive.value("time", step_.t);
   std::vector<std::array<double, 8>> loads;
   for (const WallLoad& load : loads_)

@@ -57,6 +57,8 @@ class ExplicitMpm final : public FluidSystem {
   Vec3 momentum_added() const override { return momentum_added_; }
   Vec3 momentum_removed() const override { return momentum_removed_; }
   double kinetic_energy() const override;
+  double kinetic_added() const override { return kinetic_added_; }
+  double kinetic_removed() const override { return kinetic_removed_; }
   double largest_speed() const override { return largest_speed_; }
   double total_mass() const override;
   double total_fines() const override;
@@ -214,6 +216,7 @@ class ExplicitMpm final : public FluidSystem {
   double largest_speed_ = 0;
   Vec3 gravity_impulse_ = Vec3::Zero();
   Vec3 momentum_added_ = Vec3::Zero(), momentum_removed_ = Vec3::Zero();
+  double kinetic_added_ = 0, kinetic_removed_ = 0;
   std::vector<WallLoad> loads_;
 };
 

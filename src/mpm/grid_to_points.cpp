@@ -253,12 +253,13 @@ void ExplicitMpm<Real>::check_reports() {
     if (r.stopped && !r.finite)
       throw NumericalError("water.grid_to_points", now,
                            fmt::format("point {} has no finite velocity", number),
-                           "lower 'courant' or raise 'fastest_bulk_speed'");
+                           config_.sound_speed ? "lower 'courant' or raise 'sound_speed'"
+                                               : "lower 'courant' or raise 'fastest_bulk_speed'");
     if (r.stopped)
       throw NumericalError("water.grid_to_points", now,
                            fmt::format("point {} moves {:.2g} cells in a step (limit {})", number,
                                        static_cast<double>(r.move), largest_move),
-                           "raise 'fastest_speed'");
+                           "raise 'fastest_speed' or lower 'courant'");
     if (r.left_grid)
       throw NumericalError("water.grid_to_points", now,
                            fmt::format("point {} left the grid around the domain", number),
@@ -277,7 +278,7 @@ void ExplicitMpm<Real>::check_reports() {
         fmt::format("point {} in bulk water has {:.4g} m/s, a density error above 5 % (limit {:.4g} m/s)",
                     static_cast<unsigned long long>(store_.id[fastest_bulk]), bulk,
                     largest_mach * sound_speed_),
-        "raise 'fastest_bulk_speed'");
+        config_.sound_speed ? "raise 'sound_speed'" : "raise 'fastest_bulk_speed'");
 }
 
 template void ExplicitMpm<float>::grid_to_points(double);

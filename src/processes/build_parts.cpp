@@ -9,6 +9,7 @@
 
 #include "processes/check_motion.h"
 #include "processes/check_places.h"
+#include "processes/foresee.h"
 
 namespace sluice {
 
@@ -260,6 +261,7 @@ BuiltProcess Builder::build() {
   for (const GaugeConfig& gauge : config_.gauges) parts.probes.push_back(make_gauge(gauge));
   for (const MixingConfig& mixing : config_.mixing)
     parts.probes.push_back(std::make_unique<MixingProbe>(mixing));
+  std::ranges::move(foreseen(config_, parts), std::back_inserter(built_.warnings));
   return std::move(built_);
 }
 

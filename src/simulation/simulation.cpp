@@ -15,10 +15,11 @@ double seconds_of(const Run& run) {
 
 }  // namespace
 
-Simulation::Simulation(Parts parts)
+Simulation::Simulation(Parts parts, const std::optional<TimeStep>& step)
     : parts_(std::make_unique<Parts>(std::move(parts))),
-      time_step_(choose_time_step(*parts_)),
-      stages_(build_stages(*parts_, time_step_)) {}
+      time_step_(step ? *step : choose_time_step(*parts_)),
+      stages_(build_stages(*parts_, time_step_)),
+      watch_(*parts_, time_step_) {}
 
 void Simulation::step() {
   const StepSpan now{time(), time_step_.dt};
@@ -35,6 +36,7 @@ void Simulation::step() {
     points_max_ = std::max(points_max_, parts_->water->count());
     point_steps_ += static_cast<double>(parts_->water->count()) * time_step_.fluid_substeps;
   }
+  watch_.look(time(), steps_);
 }
 
 std::uint64_t Simulation::state_hash() const {
@@ -80,6 +82,7 @@ void Simulation::exchange(StateArchive& a) {
   if (parts_->water) section("water", *parts_->water);
   if (parts_->coupling) section("coupling", *parts_->coupling);
   if (parts_->exits) section("exits", *parts_->exits);
+  section("watch", watch_);
   for (std::size_t i = 0; i < parts_->inflows.size(); ++i)
     section("inflow." + std::to_string(i), *parts_->inflows[i]);
   for (std::size_t i = 0; i < parts_->probes.size(); ++i)

@@ -4,12 +4,14 @@
 #include "base/memory_archive.h"
 #include "simulation/parts.h"
 #include "simulation/stages.h"
+#include "simulation/watch.h"
 
 namespace sluice {
 
 class Simulation {
  public:
-  explicit Simulation(Parts parts);
+  /// @param step  any other than the one that the parts' limits allow, to find out where it breaks
+  explicit Simulation(Parts parts, const std::optional<TimeStep>& step = std::nullopt);
   Simulation(const Simulation&) = delete;
   Simulation& operator=(const Simulation&) = delete;
 
@@ -19,6 +21,7 @@ class Simulation {
   const TimeStep& time_step() const { return time_step_; }
   const Parts& parts() const { return *parts_; }
   const std::vector<Stage>& stages() const { return stages_; }
+  const Watch& watch() const { return watch_; }
   std::size_t rocks_max() const { return rocks_max_; }    ///< most rocks at once
   std::size_t points_max() const { return points_max_; }  ///< most water points at once
   double rock_steps() const { return rock_steps_; }       ///< sum of rocks over rock steps
@@ -31,6 +34,7 @@ class Simulation {
   std::unique_ptr<Parts> parts_;  ///< stays where it is: the stages point to it
   TimeStep time_step_;
   std::vector<Stage> stages_;
+  Watch watch_;
   std::uint64_t steps_ = 0;
   std::size_t rocks_max_ = 0, points_max_ = 0;
   double rock_steps_ = 0, point_steps_ = 0;

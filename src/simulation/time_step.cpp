@@ -18,7 +18,7 @@ TimeStep choose_time_step(const Parts& parts) {
     step.fluid_substeps = 1;
     step.dt = fluid;
   } else {
-    step.dt = std::max(rock, fluid);
+    step.dt = std::min(std::max(rock, fluid), most_fluid_substeps * fluid);
     step.rock_substeps = steps(step.dt / rock);
     step.fluid_substeps = steps(step.dt / fluid);
   }

@@ -17,6 +17,10 @@ struct TimeStep {
 /// Longest scene step of a dry scene [s]: feed and exits are looked after at least this often.
 inline constexpr double longest_dry_step = 1e-3;
 
+/// Fluid steps between two looks at the exits: at half a cell each, water that leaves through an open face is
+/// still on the grid, whose margin is three cells.
+inline constexpr int most_fluid_substeps = 6;
+
 /// From the limits of the systems present: the larger of the two steps, with the other one subcycled.
 /// @pre at least one of rocks and water is there
 TimeStep choose_time_step(const Parts& parts);

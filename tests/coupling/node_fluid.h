@@ -71,6 +71,8 @@ class NodeFluid : public FluidSystem {
   Vec3 momentum_added() const override { return Vec3::Zero(); }
   Vec3 momentum_removed() const override { return Vec3::Zero(); }
   double kinetic_energy() const override { return 0; }
+  double kinetic_added() const override { return 0; }
+  double kinetic_removed() const override { return 0; }
   double largest_speed() const override { return 0; }
   double total_mass() const override { return 0; }
   double total_fines() const override { return 0; }

@@ -84,6 +84,8 @@ class FakeFluid : public FluidSystem {
   Vec3 momentum_removed() const override { return removed_; }
   Vec3 impulse_from_gravity() const override { return Vec3::Zero(); }
   double kinetic_energy() const override { return 0; }
+  double kinetic_added() const override { return 0; }
+  double kinetic_removed() const override { return 0; }
   double largest_speed() const override { return 0; }
   double total_mass() const override {
     double sum = 0;

@@ -1,0 +1,25 @@
+# A run that breaks stops with exit code 3, saves its last good state, says so in run.json, and runs with the
+# remedy that its message names.
+set(process ${CASES}/extremes/scenes/pit.yaml)
+file(REMOVE_RECURSE ${OUT})
+execute_process(COMMAND ${PROGRAM} run ${process} --set "rocks.stiffness_per_size=1e4 N/m2" --out ${OUT}
+                RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE error)
+message("${error}")
+if(NOT code EQUAL 3)
+  message(FATAL_ERROR "exit code ${code}, not 3")
+endif()
+if(NOT error MATCHES "rocks.substeps t=[0-9.]+ s: rock [0-9]+ overlap" OR NOT error MATCHES "raise .*'stiffness_per_size'")
+  message(FATAL_ERROR "no stage, time, rock, limit and remedy in the message")
+endif()
+if(NOT EXISTS ${OUT}/checkpoint.h5)
+  message(FATAL_ERROR "no state was saved")
+endif()
+file(READ ${OUT}/run.json manifest)
+if(NOT manifest MATCHES "\"outcome\": \"failed\"" OR manifest MATCHES "[^a-z]nan[^a-z]")
+  message(FATAL_ERROR "run.json does not tell the failure")
+endif()
+execute_process(COMMAND ${PROGRAM} run ${process} --set "rocks.stiffness_per_size=2e6 N/m2" --out ${OUT}
+                RESULT_VARIABLE code OUTPUT_QUIET ERROR_VARIABLE error)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "the remedy does not help: exit code ${code}\n${error}")
+endif()
