@@ -53,8 +53,8 @@ TEST(StudyInput, WantsSeedsThatAreWholeAndEachOnce) {
 
 TEST(StudyInput, PlacesATimeThatIsNone) {
   EXPECT_EQ(problems_of(two + "until: 6 kg\n"),
-            "s.yaml:4:8: 'until' is '6 kg' (a time above zero is needed) write 6 s");
-  EXPECT_NE(problems_of(two + "until: -6 s\n").find("s.yaml:4:8: 'until' is '-6 s'"), std::string::npos);
+            "s.yaml:4:1: 'until' is '6 kg' (a time above zero is needed) write 6 s");
+  EXPECT_NE(problems_of(two + "until: -6 s\n").find("s.yaml:4:1: 'until' is '-6 s'"), std::string::npos);
 }
 
 TEST(StudyInput, KnowsTheVariationsThatAClaimNames) {
