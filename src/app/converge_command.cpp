@@ -85,6 +85,13 @@ void check_settings(const std::vector<std::string>& settings, const std::vector<
                                       fmt::format("has '{}' and '{}'", settings[i], settings[k]),
                                       "two rungs would be alike", "leave one of them out"});
   }
+  // The sentences speak of the last rung as the finest.
+  for (std::size_t k = 2; k < numbers.size(); ++k)
+    if ((numbers[k] - numbers[k - 1]) * (numbers[1] - numbers[0]) < 0)
+      throw InputError(InputProblem{
+          over_place(), "",
+          fmt::format("has '{}' after '{}' and '{}'", settings[k], settings[k - 2], settings[k - 1]),
+          "a ladder runs one way, coarse to fine", "put the settings in order"});
 }
 
 /// What weakens the comparison, in words.

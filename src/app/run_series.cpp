@@ -94,7 +94,7 @@ void check_series(const std::vector<PlannedRun>& runs) {
   }
 }
 
-int run_series(const std::vector<PlannedRun>& runs, const RunOne& run_one) {
+int run_series(const std::vector<PlannedRun>& runs, const RunOne& run_one, const AfterRun& after) {
   bool failed = false;
   for (std::size_t k = 0; k < runs.size(); ++k) {
     const PlannedRun& run = runs[k];
@@ -106,6 +106,7 @@ int run_series(const std::vector<PlannedRun>& runs, const RunOne& run_one) {
     fmt::print("\n[{}/{}] {}: {}\n", k + 1, runs.size(), run.name, words);
     std::fflush(stdout);
     failed = failed || standing == Standing::failed;
+    if (standing == Standing::finished && after) after(k);
     if (standing == Standing::finished || standing == Standing::failed) continue;
     RunOptions options = run.options;
     options.resume = standing == Standing::unfinished;
@@ -117,6 +118,7 @@ int run_series(const std::vector<PlannedRun>& runs, const RunOne& run_one) {
           fmt::format("'{}' ended with exit code {}; what is finished is kept: give the same "
                       "command again once the cause is removed",
                       run.name, code));
+    if (code == 0 && after) after(k);
   }
   return failed ? 3 : 0;
 }

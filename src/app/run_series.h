@@ -43,9 +43,11 @@ int run_apart(const RunOptions& options);
 /// Reads and builds each once before the first starts, so that what does not fit is told at once.
 /// @throws InputError  placed where the change stands
 void check_series(const std::vector<PlannedRun>& runs);
+/// Told of each run that is finished, whether now or before, by its place in the series.
+using AfterRun = std::function<void(std::size_t)>;
 /// @return 0, 3 where a run failed numerically (the others are run all the same), 130 where it was
 /// interrupted
 /// @throws EnvironmentError  a run could not go on for reasons of the machine
-int run_series(const std::vector<PlannedRun>& runs, const RunOne& run_one);
+int run_series(const std::vector<PlannedRun>& runs, const RunOne& run_one, const AfterRun& after = {});
 
 }  // namespace sluice

@@ -41,6 +41,22 @@ void refuse_set_seed(const StudyOptions& options, const StudyConfig& study) {
   check(options.overrides, {"--set", 0, 0});
 }
 
+/// Two variations whose folders would be one.
+void refuse_shared_folders(const StudyConfig& study) {
+  std::vector<InputProblem> problems;
+  for (std::size_t k = 0; k < study.variations.size(); ++k)
+    for (std::size_t i = 0; i < k; ++i) {
+      const VariationConfig &first = study.variations[i], &second = study.variations[k];
+      if (folder_name(first.name) != folder_name(second.name)) continue;
+      problems.push_back(
+          {second.where, second.name,
+           fmt::format("would share the folder '{}' with '{}'", folder_name(second.name), first.name),
+           "signs other than letters, digits, '.', '_' and '-' do not count in it", "rename one"});
+      break;
+    }
+  if (!problems.empty()) throw InputError(std::move(problems));
+}
+
 /// All variations with the first seed, then with the next: an interrupted study is a smaller one.
 Plan plan(const StudyOptions& options, const StudyConfig& study, const std::filesystem::path& out) {
   Plan plan;
@@ -81,16 +97,19 @@ void judge(StudyRecord& record, const StudyConfig& study) {
   }
 }
 
-/// A result that no run has is a misspelt one.
-void check_claims(const StudyRecord& record, const StudyConfig& study) {
+/// A result that the first run of a variation does not have is a misspelt one: better told then than after
+/// the last.
+void check_claims(const std::filesystem::path& folder, const std::string& variation,
+                  const StudyConfig& study) {
+  const SeriesRow row = read_series_row(folder);
   std::vector<std::string> names;
-  for (const KeyResult& r : record.results()) names.push_back(r.name);
-  if (names.empty()) return;
+  for (const KeyResult& r : row.results) names.push_back(r.name);
+  if (!row.completed() || names.empty()) return;
   std::vector<InputProblem> problems;
   for (const ClaimConfig& claim : study.claims)
-    if (std::find(names.begin(), names.end(), claim.result) == names.end())
-      problems.push_back({claim.where, "result", fmt::format("is '{}'", claim.result),
-                          "no run has a result of that name; study.csv names them all",
+    if ((claim.of == variation || claim.against == variation) && !find_result(row.results, claim.result))
+      problems.push_back({claim.result_at, "result", fmt::format("is '{}'", claim.result),
+                          fmt::format("'{}' has no result of that name", variation),
                           suggest_word(claim.result, names)});
   if (!problems.empty()) throw InputError(std::move(problems));
 }
@@ -107,9 +126,9 @@ std::vector<std::string> notes_of(const StudyRecord& record) {
     for (const KeyResult& r : row.results) steady = steady && (r.steady || !r.headline);
   if (!steady)
     notes.emplace_back(
-        "not every run reached a steady state: averages are then over the second half of the run, the same "
-        "time in "
-        "all of them, and speak for that time after the start, not for continuous operation");
+        "not every run reached a steady state: the averages of one that did not are over its second half, "
+        "and "
+        "speak for that time after the start, not for continuous operation");
   return notes;
 }
 
@@ -120,9 +139,12 @@ int run_study(const StudyOptions& options) {
   refuse_set_seed(options, study);
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("out") / options.study.stem() : options.out;
+  refuse_shared_folders(study);
   const Plan planned = plan(options, study, out);
   check_series(planned.runs);
-  const int code = run_series(planned.runs, run_apart);
+  const int code = run_series(planned.runs, run_apart, [&](std::size_t k) {
+    check_claims(planned.runs[k].options.out, planned.labels[k], study);
+  });
   if (code == 130) {
     fmt::print(stderr, "interrupted; the same command goes on from here\n");
     return code;
@@ -147,7 +169,6 @@ int run_study(const StudyOptions& options) {
   judge(record, study);
   write_study_page(out, record);
   fmt::print("\n{}\npage: {}\n", study_text(record), (out / "study.html").string());
-  check_claims(record, study);
   return code;
 }
 

@@ -12,6 +12,9 @@ namespace sluice {
 
 namespace {
 
+/// Every whole number up to it is a double of its own.
+constexpr double largest_seed = 9'007'199'254'740'991;
+
 void check_assignments(Schema& s, const std::vector<std::string>& set) {
   for (const std::string& assignment : set)
     if (assignment.find('=') == std::string::npos || assignment.front() == '=')
@@ -51,6 +54,7 @@ void ClaimConfig::keys(Schema& s) {
             .applies = kind == Kind::alike,
             .applies_to = "kind: alike",
             .example = "10 %"});
+  result_at = s.at("result");
   of_at = s.at("of");
   against_at = s.at("against");
 }
@@ -67,13 +71,17 @@ void StudyConfig::keys(Schema& s) {
   s.numbers(
       "seeds", seeds,
       {.at_least = 0,
+       .at_most = largest_seed,
        .doc = "each variation runs once with each: repetitions whose scatter gives the limits; without them, "
               "once with the process's own",
        .example = "[1, 2, 3, 4, 5]"});
   s.named("variations", variations, {.required = true, .doc = "what is compared"});
   s.named("claims", claims, {.doc = "statements that the page judges; they need five seeds"});
   set_at = s.given("set") ? s.at("set") : s.here();
+  until_at = s.given("until") ? s.at("until") : s.here();
   check_assignments(s, set);
+  if (s.given("seeds") && seeds.empty())
+    s.problem("seeds", "is empty", "", "write [1, 2, 3, 4, 5], or leave it out");
   if (s.given("variations") && variations.size() < 2)
     s.problem("variations", fmt::format("has {} entry", variations.size()), "two at least can be compared",
               "add another");
@@ -106,9 +114,9 @@ StudyConfig read_study(const std::filesystem::path& file) {
       document.add(
           {claim.against_at, "against", "is the same variation", "two are compared", "name another"});
   }
-  if (!study.until.empty() && !read_quantity(study.until, "s").value)
-    document.add(
-        {study.where, "until", fmt::format("is '{}'", study.until), "a time is needed", "write 6 s"});
+  if (!study.until.empty() && !(read_quantity(study.until, "s").value.value_or(0) > 0))
+    document.add({study.until_at, "until", fmt::format("is '{}'", study.until), "a time above zero is needed",
+                  "write 6 s"});
   document.finish();
   return study;
 }

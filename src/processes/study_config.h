@@ -24,7 +24,7 @@ struct ClaimConfig {
   std::string name, text, result, of, against;
   Kind kind = Kind::lower;
   double margin = 0.1;
-  Location where, of_at, against_at;
+  Location where, result_at, of_at, against_at;
   void keys(Schema& s);
 };
 
@@ -36,7 +36,7 @@ struct StudyConfig {
   std::vector<double> seeds;
   std::vector<VariationConfig> variations;
   std::vector<ClaimConfig> claims;
-  Location where, set_at;
+  Location where, set_at, until_at;
   void keys(Schema& s);
 
   const std::filesystem::path& process_of(const VariationConfig& v) const {

@@ -16,6 +16,10 @@ namespace sluice {
 
 namespace {
 
+constexpr const char* nothing_to_compare =
+    "No rung has a result that could be compared: it failed, or it ended before anything left or was "
+    "measured.";
+
 std::string verdict_mark(const ConvergeRecord& record, std::size_t rung, const KeyResult& result) {
   if (rung == 0) return "";
   switch (record.change(rung, result.name)->verdict) {
@@ -82,7 +86,7 @@ std::string error_chart(const ConvergeRecord& record, const KeyResult& result) {
     series.y.push_back(std::abs(p.value - reference) * result.factor);
     labels.push_back(record.rungs[k].label);
   }
-  if (std::none_of(series.y.begin(), series.y.end(), [](double y) { return y > 0; })) return "";
+  if (std::count_if(series.y.begin(), series.y.end(), [](double y) { return y > 0; }) < 2) return "";
   const std::vector<double> limits =
       limit > 0 ? std::vector<double>{limit * result.factor} : std::vector<double>{};
   return log_chart(
@@ -92,7 +96,7 @@ std::string error_chart(const ConvergeRecord& record, const KeyResult& result) {
 }
 
 std::string gains(const ConvergeRecord& record, const std::vector<KeyResult>& results) {
-  if (results.empty()) return "<p>No rung came to an end with a result that could be compared.</p>";
+  if (results.empty()) return fmt::format("<p>{}</p>", nothing_to_compare);
   std::string out = "<dl class=\"sentences\">";
   for (const KeyResult& result : results)
     out += "<dt>" + html(result.what) + "</dt><dd>" + html(ladder_sentence(record, result)) + "</dd>";
@@ -118,8 +122,8 @@ std::string converge_html(const ConvergeRecord& record) {
     page.sections.push_back(
         {"charts", "Error against run time",
          "<p class=\"note\">Distance of each rung's result from that of the last rung, or from the "
-         "extrapolated "
-         "one where there is an order. Below the dashed line, the 95 % limits of the last rung's sampling, a "
+         "extrapolated one where there is an order. Below the dashed line, the 95 % limits of the last "
+         "rung's sampling, a "
          "distance may be chance.</p><div class=\"charts\">" +
              charts + "</div>"});
   page.sections.push_back(
@@ -156,6 +160,7 @@ std::string converge_text(const ConvergeRecord& record) {
   out += "\n";
   for (const SeriesRow& row : record.rungs)
     if (!row.message.empty()) out += fmt::format("{}: {}\n", row.label, row.message);
+  if (headline.empty()) out += fmt::format("\n{}\n", nothing_to_compare);
   for (const KeyResult& result : headline)
     out += fmt::format("\n{}. {}\n", result.what, ladder_sentence(record, result));
   for (const std::string& note : record.notes) out += "\nnote: " + note + "\n";

@@ -207,7 +207,12 @@ std::string study_text(const StudyRecord& record) {
   std::string out = fmt::format("{:<54}", "");
   for (const std::string& variation : record.variations) out += fmt::format(" {:>18}", variation);
   out += "\n";
-  for (const KeyResult& result : headline_results(record.runs, record.results())) {
+  const std::vector<KeyResult> headline = headline_results(record.runs, record.results());
+  if (headline.empty())
+    out +=
+        "No run has a result that could be compared: it failed, or it ended before anything left or was "
+        "measured.\n";
+  for (const KeyResult& result : headline) {
     KeyResult plain = result;
     plain.shown_unit.clear();
     out += fmt::format("{:<54}",
