@@ -106,10 +106,7 @@ std::vector<std::string> notes_of(const ConvergeOptions& options, const ProcessC
                     options.vary));
   if (config.stop)
     notes.push_back("every rung runs to the same time: 'stop', which would end each at its own, is left out");
-  for (const SeriesRow& row : record.rungs)
-    if (!row.commit.empty() && row.commit != record.rungs.front().commit)
-      notes.push_back(fmt::format("'{}' was made by another build ({}) than '{}' ({})", row.label, row.commit,
-                                  record.rungs.front().label, record.rungs.front().commit));
+  for (std::string& note : build_notes(record.rungs)) notes.push_back(std::move(note));
   return notes;
 }
 

@@ -115,12 +115,7 @@ void check_claims(const std::filesystem::path& folder, const std::string& variat
 }
 
 std::vector<std::string> notes_of(const StudyRecord& record) {
-  std::vector<std::string> notes;
-  for (const SeriesRow& row : record.runs)
-    if (!row.commit.empty() && row.commit != record.runs.front().commit) {
-      notes.emplace_back("the runs were made by different builds; the table of runs has their states");
-      break;
-    }
+  std::vector<std::string> notes = build_notes(record.runs);
   bool steady = true;
   for (const SeriesRow& row : record.runs)
     for (const KeyResult& r : row.results) steady = steady && (r.steady || !r.headline);
