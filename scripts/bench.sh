@@ -10,6 +10,7 @@ cmake --preset release >/dev/null
 cmake --build --preset release --target sluice_bench
 threads="${OMP_NUM_THREADS:-$(nproc)}"
 export OMP_NUM_THREADS="$threads"
+export GOMP_SPINCOUNT="${GOMP_SPINCOUNT:-1000}"  # as the program sets for itself
 found=$(mktemp)
 trap 'rm -f "$found"' EXIT
 text=$(build/release/sluice_bench --benchmark_filter="$filter" --benchmark_counters_tabular=true --benchmark_min_time=0.3 \

@@ -27,6 +27,7 @@ cmake --build --preset release --target sluice_bench write_bed
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
+export GOMP_SPINCOUNT="${GOMP_SPINCOUNT:-1000}"  # as the program sets for itself
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
 
 # rate, coordination and list builds of one run of a peer: from its log

@@ -7,6 +7,7 @@
 #include <exception>
 #include <new>
 
+#include "app/brief_waits.h"
 #include "app/commands.h"
 #include "base/errors.h"
 #include "base/parallel.h"
@@ -38,6 +39,7 @@ int guarded(const std::function<int()>& command) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  sluice::wait_briefly(argv);
   CLI::App app("Sluice: rock and water through feed boxes, chutes and screens");
   app.set_version_flag(
       "--version", std::string("sluice ") + sluice::program_version + " (" + sluice::program_commit + ")");
