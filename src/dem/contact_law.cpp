@@ -55,7 +55,7 @@ ContactForce contact_force(const ContactConstants& c, const Vec3& n, double over
                                 {velocity.x(), velocity.y(), velocity.z()},
                                 {spring.x(), spring.y(), spring.z()}};
   const LinearForce<double> f = linear_contact<double>(
-      {c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.end == EndOfContact::no_tension}, dt, contact);
+      {c.k_n, c.k_t, c.c_n, c.c_t, c.friction, c.mass, c.end == EndOfContact::no_tension}, dt, contact);
   spring = {contact.spring.x, contact.spring.y, contact.spring.z};
   return {{f.force.x, f.force.y, f.force.z}, f.normal, f.lost_normal, f.lost_friction, f.elastic};
 }

@@ -43,6 +43,7 @@ struct ContactConstants {
   double k_n = 0, k_t = 0;  ///< [N/m]
   double c_n = 0, c_t = 0;  ///< [N s/m]
   double friction = 0;
+  double mass = 0;  ///< effective [kg], > 0
   EndOfContact end = EndOfContact::no_tension;
 };
 
@@ -57,7 +58,8 @@ struct ContactForce {
 inline ContactConstants contact_constants(const ContactLaw& law, double k_n, double tangential_ratio,
                                           double mass_effective, EndOfContact end) {
   const double c_n = 2 * law.zeta * std::sqrt(k_n * mass_effective);
-  return {k_n, tangential_ratio * k_n, c_n, std::sqrt(tangential_ratio) * c_n, law.friction, end};
+  return {k_n,          tangential_ratio * k_n, c_n, std::sqrt(tangential_ratio) * c_n,
+          law.friction, mass_effective,         end};
 }
 
 /// One step of a contact; see linear_contact in linear_contact.h, which does the same in lanes.

@@ -1,7 +1,7 @@
 #pragma once
 /// What a DemSystem holds, and the passes of its step.
 ///
-/// A step is kick - drift - contacts - kick (velocity Verlet; the dashpots see the half-step velocity):
+/// A step is kick - drift - contacts - kick (velocity Verlet; for the dashpots see sampled_dashpot.h):
 ///
 ///   drift     half kick with the forces of the last step, move, turn         one loop over rocks
 ///   contacts  each rock's pairs with higher indices, and its walls            one loop over chunks

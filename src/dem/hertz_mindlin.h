@@ -18,6 +18,7 @@
 /// contact is not looked at: a flat face is stiffer, a tip softer); a wall has an infinite radius.
 
 #include "dem/contact_law.h"
+#include "dem/sampled_dashpot.h"
 
 namespace sluice {
 
@@ -79,10 +80,15 @@ inline ContactForce hertz_mindlin_force(const ContactLaw& law, const Indentation
   c.c_n = 2 * std::sqrt(5.0 / 6) * law.zeta * std::sqrt(at.mass_effective * stiffness);
   c.c_t = std::sqrt(law.shear_ratio) * c.c_n;
   c.friction = law.friction;
+  c.mass = at.mass_effective;
   c.end = end;
+  // The sample of a first touch stands for a time in which the damping grows with overlap^(1/4).
+  const double closing = velocity.dot(n);
+  if (time_in_contact(at.overlap, closing, dt, end == EndOfContact::no_tension) < 1)
+    c.c_n *= 0.8 * std::sqrt(std::sqrt(1 + 0.5 * std::abs(closing) * dt / at.overlap));
 
   // The contact grew or shrank since the last step: the energy falls with the radius of the contact.
-  const double before = std::max(0.0, at.overlap - velocity.dot(n) * dt);
+  const double before = std::max(0.0, at.overlap - closing * dt);
   const double kept = std::sqrt(std::min(at.overlap, before) / std::max(at.overlap, before));
   const double root = std::sqrt(std::sqrt(at.overlap / at.radius_effective));
   Vec3 stretch = spring * (std::sqrt(kept) / root);

@@ -210,10 +210,13 @@ struct DemSystem::Implementation::LaneContacts {
       const double ratio = s.config.tangential_ratio;
       const Lanes k_n = s.limits.stiffness_per_size * 2 * size_a * size_b / (size_a + size_b);
       const Lanes c_n = 2.0 * law.zeta * lanes::root(k_n * touch.mass_effective);
-      const LinearConstants<Lanes> constants{
-          k_n,          ratio * k_n,
-          c_n,          std::sqrt(ratio) * c_n,
-          law.friction, s.config.end_of_contact == EndOfContact::no_tension};
+      const LinearConstants<Lanes> constants{k_n,
+                                             ratio * k_n,
+                                             c_n,
+                                             std::sqrt(ratio) * c_n,
+                                             law.friction,
+                                             touch.mass_effective,
+                                             s.config.end_of_contact == EndOfContact::no_tension};
       const LaneTriple w_a = load_triples(s.rocks.w, g.i), w_b = load_triples(s.rocks.w, g.j);
       const LaneTriple velocity = load_triples(s.rocks.v, g.i) - load_triples(s.rocks.v, g.j) +
                                   cross(w_a, touch.arm_a) - cross(w_b, touch.arm_b);

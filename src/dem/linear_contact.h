@@ -3,6 +3,7 @@
 /// Lanes). No branches: what differs between lanes is selected. Conventions are those of contact_law.h.
 
 #include "dem/lanes.h"
+#include "dem/sampled_dashpot.h"
 
 namespace sluice {
 
@@ -11,6 +12,7 @@ struct LinearConstants {
   Real k_n, k_t;  ///< [N/m]
   Real c_n, c_t;  ///< [N s/m]
   Real friction;
+  Real mass;  ///< effective [kg]
   bool no_tension;
 };
 
@@ -52,8 +54,16 @@ LinearForce<Real> linear_contact(const LinearConstants<Real>& c, double dt, Line
   LinearForce<Real> result;
   const Real closing = dot(contact.velocity, n);
   const Real from_spring = c.k_n * contact.overlap;
-  result.normal = from_spring + c.c_n * closing;
-  if (c.no_tension) result.normal = larger(result.normal, Real{});
+  const auto push = [&](const Real& damping) {
+    const Real normal = from_spring + damping * closing;
+    return c.no_tension ? larger(normal, Real{}) : normal;
+  };
+  const Real in_contact = time_in_contact<Real>(contact.overlap, closing, dt, c.no_tension);
+  const auto touches = in_contact < 1.0;
+  const Real normal = push(damping_in_contact<Real>(c.c_n, c.mass, dt));
+  result.normal = normal;
+  if (lanes::any(touches))
+    result.normal = select(touches, push(damping_at_touch<Real>(c.c_n, c.mass, in_contact, dt)), normal);
   result.lost_normal = (result.normal - from_spring) * closing * dt;
 
   const Triple<Real> sliding = contact.velocity - closing * n;
@@ -61,13 +71,18 @@ LinearForce<Real> linear_contact(const LinearConstants<Real>& c, double dt, Line
   const Triple<Real> stretched = turned_into_plane(contact.spring, n) + (Real{} + dt) * sliding;
   const Triple<Real> elastic_and_damped = c.k_t * stretched + c.c_t * sliding;
   const Real size2 = dot(elastic_and_damped, elastic_and_damped);
-  const Real limit = c.friction * larger(result.normal, Real{});
+  const Real limit = c.friction * larger(normal, Real{});
   const auto slides = size2 > limit * limit;
   const Real share = limit / lanes::root(select(slides, size2, Real{} + 1.0));
-  const Triple<Real> tangential = select(slides, share * elastic_and_damped, elastic_and_damped);
+  Triple<Real> tangential = select(slides, share * elastic_and_damped, elastic_and_damped);
   // Cut back so that spring and dashpot together give the limit; no push, no stretch.
   const Real yields = select(limit > 0.0, 1.0 / c.k_t, Real{});
   contact.spring = select(slides, yields * (tangential - c.c_t * sliding), stretched);
+  if (lanes::any(touches)) {
+    const auto weighted = touches & (normal > 0.0);
+    tangential =
+        select(weighted, result.normal / select(weighted, normal, Real{} + 1.0), Real{} + 1.0) * tangential;
+  }
   const Real held = 0.5 * c.k_t * dot(contact.spring, contact.spring);
   result.lost_friction = dot(tangential, sliding) * dt - (held - held_before);
   result.elastic = 0.5 * from_spring * contact.overlap + held;

@@ -282,7 +282,13 @@ void PlainRocks::add_force(const DemSystem& dem, const Contact& c, double dt) {
   if (!wall) velocity -= v_half_[j] + w_half_[j].cross(c.arm_second);
   const double closing = velocity.dot(c.normal);
   const Vec3 sliding = velocity - closing * c.normal;
-  const double normal = std::max(0.0, k_n * c.overlap + c_n * closing);
+  // A dashpot sampled half a step late, and one that stands for no more than the time since the bodies met.
+  const double normal = std::max(0.0, k_n * c.overlap + closing / (1 / c_n + 0.25 * dt / mass));
+  double pushed = normal;
+  if (c.overlap < closing * dt) {
+    const double weighted = (0.5 + c.overlap / (closing * dt)) * c_n;
+    pushed = k_n * c.overlap + closing / (1 / weighted + 0.5 * dt / mass);
+  }
 
   // The spring turns into the plane of contact, then stretches; both together obey Coulomb.
   const auto known = std::lower_bound(memory_.begin(), memory_.end(), c.key,
@@ -299,7 +305,8 @@ void PlainRocks::add_force(const DemSystem& dem, const Contact& c, double dt) {
   }
   new_memory_.push_back({c.key, spring});
 
-  const Vec3 force = c.share * (-normal * c.normal - tangential);
+  if (normal > 0) tangential *= pushed / normal;
+  const Vec3 force = c.share * (-pushed * c.normal - tangential);
   force_[i] += force;
   torque_[i] += c.arm_first.cross(force);
   if (wall) return;
