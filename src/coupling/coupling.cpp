@@ -55,9 +55,9 @@ struct Coupling::Implementation {
   DemSystem& rocks;
   FluidSystem& fluid;
   CouplingGrid grid;
-  NodeTable table;
+  FillTable table;
   Domain domain;
-  std::vector<std::vector<Vec3>> points;
+  std::vector<WettingPoints> points;
 
   FluidNodes nodes;
   std::vector<RockOnGrid> on_grid;
@@ -154,8 +154,8 @@ void Coupling::Implementation::find_wetted() {
         }
         if (sum <= 0) return;
         for (double& w : place.wet.weight) w /= sum;
-        place.wetted =
-            sluice::wetted_fraction(rocks, r, points[static_cast<std::size_t>(all.shape[r])], table, nodes);
+        place.wetted = table.wetted_fraction(points[static_cast<std::size_t>(all.shape[r])], all.x[r],
+                                             all.q[r].toRotationMatrix() * all.size[r], all.radius[r]);
         wetted[r] = place.wetted;
       },
       64);
