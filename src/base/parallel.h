@@ -20,13 +20,21 @@ inline void set_thread_count(int n) {
   omp_set_num_threads(n);
 }
 
+/// One chunk, by the same instructions wherever it is called from: were the body compiled into the loop of
+/// one thread and into that of several, multiplications and additions could be fused differently in the two.
+template <class Body>
+[[gnu::noipa]] void run_chunk(const Body& body, std::size_t c, std::size_t begin, std::size_t end) {
+  body(c, begin, end);
+}
+
 /// Calls body(chunk, begin, end) for each chunk of [0, n). An exception thrown by a chunk is thrown
 /// again after the loop; of several, the one of the lowest chunk.
 template <class Body>
 void parallel_chunks(std::size_t n, std::size_t chunk_length, const Body& body) {
   const std::size_t chunks = (n + chunk_length - 1) / chunk_length;
   if (chunks <= 1 || thread_count() == 1) {
-    for (std::size_t c = 0; c < chunks; ++c) body(c, c * chunk_length, std::min(n, (c + 1) * chunk_length));
+    for (std::size_t c = 0; c < chunks; ++c)
+      run_chunk(body, c, c * chunk_length, std::min(n, (c + 1) * chunk_length));
     return;
   }
   std::exception_ptr error;
@@ -34,7 +42,7 @@ void parallel_chunks(std::size_t n, std::size_t chunk_length, const Body& body) 
 #pragma omp parallel for schedule(dynamic, 1)
   for (std::size_t c = 0; c < chunks; ++c) {
     try {
-      body(c, c * chunk_length, std::min(n, (c + 1) * chunk_length));
+      run_chunk(body, c, c * chunk_length, std::min(n, (c + 1) * chunk_length));
     } catch (...) {
 #pragma omp critical(sluice_parallel_error)
       if (c < error_chunk) {

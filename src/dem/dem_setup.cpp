@@ -67,7 +67,7 @@ void check_materials(const Materials& materials, std::vector<InputProblem>& prob
   }
 }
 
-void check_sizes(const DemScene& scene, double most_margin, std::vector<InputProblem>& problems) {
+void check_sizes(const DemScene& scene, double least_margin, std::vector<InputProblem>& problems) {
   if (!(scene.smallest_size > 0))
     note(problems, "size", fmt::format("of the smallest rock is {} m", scene.smallest_size),
          "it sets stiffness and time step", "use a positive size");
@@ -78,7 +78,7 @@ void check_sizes(const DemScene& scene, double most_margin, std::vector<InputPro
          "rocks have a mass", "give the rocks' material a density");
   double widest = 0;
   for (const RockShape& shape : scene.shapes) widest = std::max(widest, 2 * shape.bounding_radius);
-  widest *= scene.largest_size * (1 + most_margin);
+  widest *= scene.largest_size * (1 + least_margin);
   for (int k = 0; k < 3; ++k)
     if (scene.domain.periodic(k) && scene.domain.box.hi[k] - scene.domain.box.lo[k] < 2 * widest)
       note(problems, "domain", fmt::format("is periodic over less than {:.3g} m", 2 * widest),
@@ -107,7 +107,7 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
   std::vector<InputProblem> problems;
   check_shapes(scene, problems);
   check_materials(scene.materials, problems);
-  check_sizes(scene, most_margin, problems);
+  check_sizes(scene, least_margin, problems);
   if (!problems.empty()) throw InputError(std::move(problems));
 
   limits = choose_limits(config, scene);

@@ -7,6 +7,8 @@
 ///   contacts  each rock's pairs with higher indices, and its walls            one loop over chunks
 ///   finish    what other chunks' pairs push back, half kick                   one loop over rocks
 ///
+/// Of several steps in a row, the end of one and the drift of the next are one loop.
+///
 /// Loops run in chunks of a fixed length; a chunk owns its tallies, which are added in chunk order
 /// when asked for. So nothing depends on the number of threads, and nothing is summed in a step.
 
@@ -108,7 +110,9 @@ struct DemSystem::Implementation {
   Implementation(const DemConfig& config, DemScene scene, const Walls& walls);
 
   static constexpr std::size_t chunk_length = PairList::rocks_per_chunk;
-  static constexpr double most_margin = 0.3;  ///< of the bounding radius: how far a rock goes on one list
+  // How far a rock may go before the pairs are listed again, of its bounding radius; beside periodic faces at
+  // most so far that it cannot reach another one twice.
+  static constexpr double least_margin = 0.03, most_margin = 0.3;
 
   DemConfig config;
   DemScene scene;
@@ -185,9 +189,16 @@ struct DemSystem::Implementation {
   }
   std::size_t copy_of(std::size_t i, std::size_t copy) const { return count() + face_copies * i + copy; }
 
-  void step(double t, double dt);
+  void steps_of(double t, double dt, int n);
+  void keep_overlaps();
   void prepare_chunks(double dt);
-  void drift(const StepTime& time);
+  /// @param goes_on  the last step still wants its end
+  void drift(const StepTime& time, bool goes_on);
+  void take_reactions(std::size_t c);
+  void begin_step(DemChunk& chunk, std::size_t i, const StepTime& time);
+  void turn_rocks(std::size_t begin, std::size_t end, double dt);
+  void count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt);
+  void end_step(std::size_t i, const StepTime& time);
   Body body_of(std::size_t i) const {
     return {rocks.x[i], rocks.radius[i], rocks.v[i],        rocks.mass[i],
             rocks.w[i], rocks.size[i],   rocks.material[i], rocks.shape[i]};

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/errors.h"
 #include "base/parallel.h"
@@ -14,35 +15,38 @@ namespace {
 constexpr std::uint64_t steps_per_sample = 100;
 constexpr double longest_move = 0.5;  // of the radius in one step: beyond it contacts would be missed
 
-// How far a rock may go before the pairs are listed again: what it does in this many steps, but at least and
-// at most so much of its bounding radius.
-constexpr double steps_per_list = 200;
-constexpr double least_margin = 0.03;
+constexpr double steps_per_list = 200;  // a rock may go as far as it does in so many on one list
 constexpr std::uint64_t lists_per_sort = 8;
 }  // namespace
 
-void DemSystem::Implementation::step(double t, double dt) {
-  const StepTime time{t, dt, steps % steps_per_sample == 0};
-  for (MovingWalls& part : moving) part.move(t, dt);
-  prepare_chunks(dt);
-  drift(time);
-  const bool moved_far =
-      std::any_of(chunks.begin(), chunks.end(), [](const DemChunk& chunk) { return chunk.moved_far; });
-  if (!list_valid || moved_far) list_pairs(dt);
-  if (has_blocky) turn_copies();
-  contacts(time);
-  finish(time);
-  give_half_to_walls(dt);
+void DemSystem::Implementation::steps_of(double t, double dt, int n) {
+  StepTime time{t, dt, false};
+  for (int k = 0; k < n; ++k) {
+    const bool goes_on = k > 0;
+    time = {t + k * dt, dt, steps % steps_per_sample == 0};
+    for (MovingWalls& part : moving) part.move(time.t, dt);
+    prepare_chunks(dt);
+    drift(time, goes_on);
+    const bool moved_far =
+        std::any_of(chunks.begin(), chunks.end(), [](const DemChunk& chunk) { return chunk.moved_far; });
+    if (!list_valid || moved_far) list_pairs(dt);
+    if (has_blocky) turn_copies();
+    contacts(time);
+    give_half_to_walls(dt);
+    if (time.sampled) keep_overlaps();
+    ++steps;
+    now = time.t + dt;
+  }
+  if (n > 0) finish(time);
+}
 
-  if (time.sampled)
-    for (const DemChunk& chunk : chunks)
-      for (double ratio : chunk.overlaps) {
-        overlap_histogram.add(100 * ratio);
-        overlap_sum += 100 * ratio;
-        overlap_count += 1;
-      }
-  ++steps;
-  now = t + dt;
+void DemSystem::Implementation::keep_overlaps() {
+  for (const DemChunk& chunk : chunks)
+    for (double ratio : chunk.overlaps) {
+      overlap_histogram.add(100 * ratio);
+      overlap_sum += 100 * ratio;
+      overlap_count += 1;
+    }
 }
 
 void DemSystem::Implementation::prepare_chunks(double dt) {
@@ -96,60 +100,59 @@ void DemSystem::Implementation::kick(std::size_t i, double seconds) {
   }
 }
 
-void DemSystem::Implementation::drift(const StepTime& time) {
-  // Free rotation changes the angular velocity within a step, by far less than this.
-  constexpr double rotation_margin = 1.05;
+void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
   if (!only_spheres) {
     if (turned_shapes.size() < count()) turned_shapes.resize(count());
     rim_speed.resize(count());
   }
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    DemChunk& chunk = chunks[c];
+    if (goes_on) take_reactions(c);
     for (std::size_t i = begin; i < end; ++i) {
-      kick(i, 0.5 * time.dt);
-      const Vec3 move = time.dt * rocks.v[i];
-      const double most = longest_move * 0.5 * rocks.size[i];
-      if (!(move.squaredNorm() <= most * most))
-        throw NumericalError("rocks.substeps", time.t,
-                             fmt::format("rock {} moves {:.3g} radius in one step (limit {})", rocks.id[i],
-                                         move.norm() / (0.5 * rocks.size[i]), longest_move),
-                             "raise 'steps_per_contact' or check the speeds that enter");
-      rocks.x[i] += move;
-      if (has_sphere_shape(rocks.shape[i])) {
-        if (!only_spheres) rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
-        rotate_sphere(rocks.q[i], rocks.w[i], time.dt);
-      } else {
-        rotate_freely(rocks.q[i], angular[i], per_inertia[i], time.dt);
-        rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
-      }
-      if (!only_spheres) {
-        const RockShape& shape = shape_of(i);
-        turned_shapes[i] = {rocks.q[i], shape.semi_axes * rocks.size[i], shape.blockiness};
-        rim_speed[i] = rotation_margin * rocks.w[i].norm() * rocks.radius[i];
-      }
-      Vec3 moved = rocks.x[i] - listed_at[i];
-      if (periodic) {
-        rocks.x[i] = scene.domain.wrapped(rocks.x[i]);
-        moved = scene.domain.nearest_image(moved);
-      }
-      chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
-      chunk.mass_seconds += rocks.mass[i] * time.dt;
-      if (!fluid_force.empty()) {
-        chunk.fluid_impulse += fluid_force[i] * time.dt;
-        chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * time.dt;
-      }
+      if (goes_on) end_step(i, time);
+      begin_step(chunks[c], i, time);
     }
+    if (!only_spheres) turn_rocks(begin, end, time.dt);
+    if (!fluid_force.empty()) count_fluid(chunks[c], begin, end, time.dt);
   });
+}
+
+void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const StepTime& time) {
+  kick(i, 0.5 * time.dt);
+  const Vec3 move = time.dt * rocks.v[i];
+  const double most = longest_move * 0.5 * rocks.size[i];
+  if (!(move.squaredNorm() <= most * most))
+    throw NumericalError("rocks.substeps", time.t,
+                         fmt::format("rock {} moves {:.3g} radius in one step (limit {})", rocks.id[i],
+                                     move.norm() / (0.5 * rocks.size[i]), longest_move),
+                         "raise 'steps_per_contact' or check the speeds that enter");
+  rocks.x[i] += move;
+  Vec3 moved = rocks.x[i] - listed_at[i];
+  if (periodic) {
+    rocks.x[i] = scene.domain.wrapped(rocks.x[i]);
+    moved = scene.domain.nearest_image(moved);
+  }
+  chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
+  chunk.mass_seconds += rocks.mass[i] * time.dt;
+}
+
+void DemSystem::Implementation::count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt) {
+  for (std::size_t i = begin; i < end; ++i) {
+    chunk.fluid_impulse += fluid_force[i] * dt;
+    chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * dt;
+  }
 }
 
 void DemSystem::Implementation::list_pairs(double dt) {
   if (count() > chunk_length && lists % lists_per_sort == 0) sort_in_space();
   ++lists;
   std::vector<double> reach(count());
+  double most_reach = std::numeric_limits<double>::infinity();
+  for (int k = 0; k < 3; ++k)
+    if (scene.domain.periodic(k)) most_reach = std::min(most_reach, 0.25 * scene.domain.box.size()[k]);
   parallel_for(count(), [&](std::size_t i) {
-    const double radius = rocks.radius[i];
-    margin[i] =
-        std::clamp(steps_per_list * dt * rocks.v[i].norm(), least_margin * radius, most_margin * radius);
+    const double radius = rocks.radius[i], least = least_margin * radius;
+    const double most = std::max(least, std::min(most_margin * radius, most_reach - radius));
+    margin[i] = std::clamp(steps_per_list * dt * rocks.v[i].norm(), least, most);
     reach[i] = radius + margin[i];
   });
   std::vector<std::uint8_t> blocky(has_blocky ? count() : 0);
@@ -192,20 +195,29 @@ void DemSystem::Implementation::contacts(const StepTime& time) {
                        });
 }
 
+void DemSystem::Implementation::take_reactions(std::size_t c) {
+  for (std::size_t k = pairs.in_start[c]; k < pairs.in_start[c + 1]; ++k) {
+    const auto [slot, rock] = pairs.incoming[k];
+    force[rock] += reactions[slot].force;
+    torque[rock] += reactions[slot].torque;
+  }
+}
+
+void DemSystem::Implementation::end_step(std::size_t i, const StepTime& time) {
+  kick(i, 0.5 * time.dt);
+  const Vec3& turning = only_spheres ? rocks.w[i] : angular[i];
+  if (!std::isfinite(rocks.v[i].sum()) || !std::isfinite(turning.sum()))
+    throw NumericalError("rocks.substeps", time.t,
+                         fmt::format("rock {} has a velocity that is no number", rocks.id[i]),
+                         "raise 'steps_per_contact' or lower 'network_fraction'");
+}
+
 void DemSystem::Implementation::finish(const StepTime& time) {
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    for (std::size_t k = pairs.in_start[c]; k < pairs.in_start[c + 1]; ++k) {
-      const auto [slot, rock] = pairs.incoming[k];
-      force[rock] += reactions[slot].force;
-      torque[rock] += reactions[slot].torque;
-    }
+    take_reactions(c);
     for (std::size_t i = begin; i < end; ++i) {
-      kick(i, 0.5 * time.dt);
+      end_step(i, time);
       if (!only_spheres) rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
-      if (!std::isfinite(rocks.v[i].sum()) || !std::isfinite(rocks.w[i].sum()))
-        throw NumericalError("rocks.substeps", time.t,
-                             fmt::format("rock {} has a velocity that is no number", rocks.id[i]),
-                             "raise 'steps_per_contact' or lower 'network_fraction'");
     }
   });
 }

@@ -1,6 +1,9 @@
 #include "dem/dem_system.h"
 
+#include <fmt/format.h>
+
 #include <bit>
+#include <stdexcept>
 
 #include "base/parallel.h"
 #include "base/random.h"
@@ -52,7 +55,12 @@ double DemSystem::volume(std::size_t rock) const {
 }
 
 void DemSystem::step(double t, double dt) {
-  implementation_->step(t, dt);
+  steps(t, dt, 1);
+}
+void DemSystem::steps(double t, double dt, int n) {
+  // The speed of a moving wall is what it moves over a step: there is none over no time.
+  if (!(dt > 0)) throw std::invalid_argument(fmt::format("rocks cannot take a step of {} s", dt));
+  implementation_->steps_of(t, dt, n);
 }
 
 std::size_t DemSystem::contact_count() const {

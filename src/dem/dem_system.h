@@ -113,7 +113,10 @@ class DemSystem {
 
   /// One time step of `dt` [s] starting at time `t` [s].
   /// @throws NumericalError: NaN, overlap beyond the limit
+  /// @throws std::invalid_argument: dt is not positive
   void step(double t, double dt);
+  /// `n` of them: the same bits as one after the other, in less time.
+  void steps(double t, double dt, int n);
 
   std::size_t contact_count() const;
   const Histogram& overlaps() const;                ///< overlap over radius, in percent, sampled over the run

@@ -39,7 +39,7 @@ struct Incoming {
 
 class PairList {
  public:
-  static constexpr std::size_t rocks_per_chunk = 256;
+  static constexpr std::size_t rocks_per_chunk = 512;
 
   explicit PairList(PairContents contents) : contents_(contents) { start.assign(1, 0); }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "base/vec.h"
+#include "dem/lanes.h"
 
 namespace sluice {
 
@@ -23,41 +24,74 @@ inline Vec3 angular_momentum(const Quat& q, const Vec3& w, const Vec3& inertia) 
   return q * Vec3((q.conjugate() * w).cwiseProduct(inertia));
 }
 
-/// Turns q by a free motion of dt [s] with the angular momentum l [kg m2/s] of the space frame.
-inline void rotate_freely(Quat& q, const Vec3& l, const Vec3& per_inertia, double dt) {
-  Vec3 body = q.conjugate() * l;
-  const auto turn = [&](int axis, double seconds) {
-    const double quarter = 0.25 * seconds * body[axis] * per_inertia[axis];
-    const double scale = 1 / (1 + quarter * quarter);
-    const double c = (1 - quarter * quarter) * scale, s = 2 * quarter * scale;
-    const int j = (axis + 1) % 3, k = (axis + 2) % 3;
-    auto& v = q.coeffs();  // x, y, z, w
-    const double v_a = v[axis], v_j = v[j], v_k = v[k], w = v[3];
-    v[axis] = c * v_a + s * w;
-    v[j] = c * v_j + s * v_k;
-    v[k] = c * v_k - s * v_j;
-    v[3] = c * w - s * v_a;
-    // The momentum seen from the body turns the other way.
-    const double cos2 = c * c - s * s, sin2 = 2 * c * s;
-    const double along_j = body[j], along_k = body[k];
-    body[j] = cos2 * along_j + sin2 * along_k;
-    body[k] = cos2 * along_k - sin2 * along_j;
-  };
-  turn(0, 0.5 * dt);
-  turn(1, 0.5 * dt);
-  turn(2, dt);
-  turn(1, 0.5 * dt);
-  turn(0, 0.5 * dt);
-  q.normalize();
+/// A unit quaternion and what stands beside it, for one body (Real = double) or for several side by side.
+template <class Real>
+struct Turn {
+  lanes::Triple<Real> v;
+  Real w;
+};
+
+template <class Real>
+lanes::Triple<Real> turned(const Turn<Real>& q, const lanes::Triple<Real>& x) {
+  const lanes::Triple<Real> t = (Real{} + 2.0) * cross(q.v, x);
+  return x + q.w * t + cross(q.v, t);
+}
+template <class Real>
+Turn<Real> back(const Turn<Real>& q) {
+  return {{-q.v.x, -q.v.y, -q.v.z}, q.w};
 }
 
-/// The same for a sphere, whose angular velocity is constant: one turn about it.
-inline void rotate_sphere(Quat& q, const Vec3& w, double dt) {
-  // Cayley's map: second order, no trigonometry; how a sphere has turned is only ever looked at.
-  const Vec3 half = 0.5 * dt * w;
-  const Quat about(1, half.x(), half.y(), half.z());
-  q = about * q;
-  q.normalize();
+/// As above, for bodies side by side.
+template <class Real>
+lanes::Triple<Real> angular_velocity(const Turn<Real>& q, const lanes::Triple<Real>& l,
+                                     const lanes::Triple<Real>& per_inertia) {
+  const lanes::Triple<Real> body = turned(back(q), l);
+  return turned(q, {body.x * per_inertia.x, body.y * per_inertia.y, body.z * per_inertia.z});
+}
+
+/// One turn about body axis 0 of the cycle (0, 1, 2); `quarter` is a quarter of its angle.
+template <class Real>
+void turn_about(const Real& quarter, Real& v_a, Real& v_j, Real& v_k, Real& w, Real& along_j, Real& along_k) {
+  const Real scale = lanes::reciprocal(1.0 + quarter * quarter);
+  const Real c = (1.0 - quarter * quarter) * scale, s = 2.0 * quarter * scale;
+  const Real old_a = v_a, old_j = v_j;
+  v_a = c * old_a + s * w;
+  w = c * w - s * old_a;
+  v_j = c * old_j + s * v_k;
+  v_k = c * v_k - s * old_j;
+  // The momentum seen from the body turns the other way.
+  const Real cos2 = c * c - s * s, sin2 = 2.0 * c * s, before = along_j;
+  along_j = cos2 * before + sin2 * along_k;
+  along_k = cos2 * along_k - sin2 * before;
+}
+
+/// Turns q by a free motion of dt [s] with the angular momentum l [kg m2/s] of the space frame.
+template <class Real>
+void rotate_freely(Turn<Real>& q, const lanes::Triple<Real>& l, const lanes::Triple<Real>& per_inertia,
+                   double dt) {
+  lanes::Triple<Real> body = turned(back(q), l);
+  lanes::Triple<Real>& v = q.v;
+  const auto about_x = [&](double seconds) {
+    turn_about(0.25 * seconds * body.x * per_inertia.x, v.x, v.y, v.z, q.w, body.y, body.z);
+  };
+  const auto about_y = [&](double seconds) {
+    turn_about(0.25 * seconds * body.y * per_inertia.y, v.y, v.z, v.x, q.w, body.z, body.x);
+  };
+  about_x(0.5 * dt);
+  about_y(0.5 * dt);
+  turn_about(0.25 * dt * body.z * per_inertia.z, v.z, v.x, v.y, q.w, body.x, body.y);
+  about_y(0.5 * dt);
+  about_x(0.5 * dt);
+  const Real length = lanes::reciprocal_root(dot(v, v) + q.w * q.w);
+  v = length * v;
+  q.w *= length;
+}
+
+/// The same for one body.
+inline void rotate_freely(Quat& q, const Vec3& l, const Vec3& per_inertia, double dt) {
+  Turn<double> turn{{q.x(), q.y(), q.z()}, q.w()};
+  rotate_freely<double>(turn, {l.x(), l.y(), l.z()}, {per_inertia.x(), per_inertia.y(), per_inertia.z()}, dt);
+  q = Quat(turn.w, turn.v.x, turn.v.y, turn.v.z);
 }
 
 }  // namespace sluice

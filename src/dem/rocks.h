@@ -14,7 +14,7 @@ struct Rocks {
   std::vector<Vec3> x;            ///< centre [m]
   std::vector<Vec3> v;            ///< [m/s]
   std::vector<Vec3> w;            ///< angular velocity, space frame [rad/s]
-  std::vector<Quat> q;            ///< body to space, unit
+  std::vector<Quat> q;            ///< body to space, unit; a sphere keeps the one it came with
   std::vector<int> shape;         ///< index of DemSystem::shapes()
   std::vector<int> material;      ///< index of the scene's materials
   std::vector<int> source;        ///< index of the feed that made it

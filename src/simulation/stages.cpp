@@ -55,10 +55,8 @@ std::vector<Stage> build_stages(Parts& parts, const TimeStep& step) {
       add("coupling.fluid_to_grid", [&, dt](const StepSpan&) { parts.coupling->fluid_to_grid(dt); });
   }
   if (parts.rocks)
-    add("rocks.substeps", [&, step](const StepSpan& s) {
-      for (int k = 0; k < step.rock_substeps; ++k)
-        parts.rocks->step(s.t + k * step.dt_rock(), step.dt_rock());
-    });
+    add("rocks.substeps",
+        [&, step](const StepSpan& s) { parts.rocks->steps(s.t, step.dt_rock(), step.rock_substeps); });
   if (parts.exits)
     add("exits",
         [&](const StepSpan& s) { parts.exits->collect(s.t + s.dt, parts.rocks.get(), parts.water.get()); });

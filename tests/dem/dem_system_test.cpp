@@ -109,6 +109,34 @@ TEST(ManySpheres, GiveTheSameBitsWithAnyNumberOfThreads) {
   set_thread_count(threads);
 }
 
+TEST(SeveralSteps, GiveTheBitsOfOneAfterTheOther) {
+  for (const int shapes : {1, 2}) {
+    const Walls walls = walls_of(plane_wall(1, 3));
+    DemScene scene = scene_of({0.3, 0.5, 0.05}, 0.02, {make_sphere(), make_superquadric(1.5, 0.8, 8)});
+    if (shapes == 1) scene.shapes.pop_back();
+    scene.smallest_size = 0.01;
+    DemSystem alone({}, scene, walls), together({}, scene, walls);
+    for (DemSystem* dem : {&alone, &together})
+      fill_block(*dem, 9, Vec3(-0.1, -0.1, 0), 0.01, 0.02, 8, 5, shapes);
+    const double dt = alone.step_size();
+    for (int k = 0; k < 300; ++k) {
+      if (k % 7 == 0) together.steps(k * dt, dt, std::min(7, 300 - k));
+      alone.step(k * dt, dt);
+    }
+    EXPECT_GT(alone.overlap_max(), 0.1);
+    EXPECT_EQ(alone.state_hash(), together.state_hash());
+    EXPECT_EQ(alone.energy().kinetic, together.energy().kinetic);
+    EXPECT_EQ(alone.energy().dissipated_friction, together.energy().dissipated_friction);
+    EXPECT_EQ(alone.wall_loads()[0].impulse, together.wall_loads()[0].impulse);
+  }
+}
+
+TEST(StepOfNoTime, IsRefused) {
+  const Walls none;
+  DemSystem dem({}, scene_of({0.3, 0.5, 0}, 0.02), none);
+  for (const double dt : {0.0, -1e-5, std::nan("")}) EXPECT_THROW(dem.step(0, dt), std::invalid_argument);
+}
+
 TEST(StateExchange, ContinuesBitForBit) {
   const Walls walls = walls_of(plane_wall(1, 3));
   DemScene scene = scene_of({0.3, 0.5, 0.05}, 0.02, {make_sphere(), make_superquadric(1.5, 0.8, 3)});
@@ -182,6 +210,26 @@ TEST(PeriodicAxis, MakesRocksMeetThroughIt) {
   EXPECT_NEAR(dem.rocks().v[0].x(), 0, 5e-3);
   EXPECT_TRUE(dem.remove_outside().empty());
   EXPECT_FALSE(dem.has_room(dem.rocks().x[1] + Vec3(0.19, 0, 0), 0.005, true));
+}
+
+TEST(PeriodicAxis, MayBeLittleWiderThanTwoRocks) {
+  DemScene scene = gas_scene(0.999, 0);
+  scene.smallest_size = 0.02;
+  scene.domain.box = {Vec3(0, -1, -1), Vec3(0.042, 1, 1)};
+  scene.domain.low[0] = scene.domain.high[0] = Face::periodic;
+  const Walls none;
+  DemSystem dem({}, scene, none);
+  // Fast enough for the widest margin; they meet on one side, and on the other they do not.
+  dem.add({.x = {0.001, 0, 0}, .v = {3, 0, 0}, .size = 0.02});
+  dem.add({.x = {0.001 + 0.0199, 0, 0}, .v = {3, 0, 0}, .size = 0.02});
+  dem.step(0, dem.step_size());
+  EXPECT_EQ(dem.contact_count(), 1u);
+  const Vec3 before = dem.momentum();
+  run(dem, 2000 * dem.step_size());
+  EXPECT_LT((dem.momentum() - before).norm(), 1e-12 * before.norm());
+
+  scene.domain.box.hi.x() = 0.041;
+  EXPECT_THROW(DemSystem({}, scene, none), InputError);
 }
 
 TEST(NeighbourList, MissesNoContactOverASizeRangeOfTen) {

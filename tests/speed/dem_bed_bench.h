@@ -27,6 +27,7 @@ class BedBench {
   void set_up();
   void follow();
   void step();
+  void steps_of_a_run();
   std::string final_check() const;
 
   BedRecipe recipe_;

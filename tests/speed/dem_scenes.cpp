@@ -267,6 +267,7 @@ BedRecipe poly50_50k() {
   for (int i = 0; i < count; ++i)
     recipe.sizes.push_back(least * std::pow(1 + (last - 1) * i / (count - 1), 1 / power));
   recipe.keep = 50000;
+  recipe.overlap_limit = 1;  // lumps of 50 times its size close in on a grain
   recipe.first_fraction = 0.5;
   recipe.first_shrink = 0.003;
   recipe.coordination = 2;

@@ -27,7 +27,8 @@ struct BedRecipe {
   double first_shrink = 0.01;          ///< of the cell per stage, while it is loose
   double coordination = 5;             ///< contacts of a rock at which it stops
   int steps_per_stage = 40;
-  std::size_t keep = 0;  ///< spheres kept after the shut-in ones are taken out; 0 = take none out
+  std::size_t keep = 0;        ///< spheres kept after the shut-in ones are taken out; 0 = take none out
+  double overlap_limit = 0.3;  ///< of the radius, at which a run stops
 };
 
 struct Bed {
