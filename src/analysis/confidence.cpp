@@ -23,22 +23,39 @@ double student_t_975(double n) {
               (3 * z2 * z2 * z2 + 19 * z2 * z2 + 17 * z2 - 15) / (384 * n * n * n));
 }
 
+Batches batches_of(std::size_t values) {
+  const std::size_t count = std::min(most_batches, values);
+  if (count < fewest_batches) return {values, 0, 0};
+  const std::size_t length = values / count;
+  return {values - count * length, length, count};
+}
+
+Estimate replicate_mean(const std::vector<double>& repetitions) {
+  if (repetitions.empty()) return {not_known, not_known};
+  Estimate estimate{mean(repetitions), not_known};
+  const auto n = static_cast<double>(repetitions.size());
+  if (repetitions.size() >= fewest_batches)
+    estimate.half_width = student_t_975(n - 1) * std::sqrt(variance(repetitions) / n);
+  return estimate;
+}
+
 Estimate batch_mean(const std::vector<double>& series) {
   if (series.empty()) return {not_known, not_known};
-  Estimate estimate{mean(series), not_known};
-  const std::size_t batches = std::min(most_batches, series.size());
-  if (batches < fewest_batches) return estimate;
-  const std::size_t length = series.size() / batches;
-  const std::size_t first = series.size() - batches * length;
+  const Batches batches = batches_of(series.size());
   std::vector<double> means;
-  for (std::size_t b = 0; b < batches; ++b) {
+  for (std::size_t b = 0; b < batches.count; ++b) {
     double sum = 0;
-    for (std::size_t i = 0; i < length; ++i) sum += series[first + b * length + i];
-    means.push_back(sum / static_cast<double>(length));
+    for (std::size_t i = 0; i < batches.length; ++i) sum += series[batches.first + b * batches.length + i];
+    means.push_back(sum / static_cast<double>(batches.length));
   }
-  estimate.half_width = student_t_975(static_cast<double>(batches - 1)) *
-                        std::sqrt(variance(means) / static_cast<double>(batches));
-  return estimate;
+  return {mean(series), replicate_mean(means).half_width};
+}
+
+double jackknife_half_width(const std::vector<double>& without) {
+  if (without.size() < fewest_batches) return not_known;
+  const auto n = static_cast<double>(without.size());
+  // variance() divides by n - 1; the jackknife's error is (n - 1) / n of the sum of squares.
+  return student_t_975(n - 1) * (n - 1) * std::sqrt(variance(without) / n);
 }
 
 double weighted_quantile(const std::vector<double>& values, const std::vector<double>& masses, double q) {

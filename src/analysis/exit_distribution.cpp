@@ -1,10 +1,9 @@
 #include "analysis/exit_distribution.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-
-#include "base/statistics.h"
 
 namespace sluice {
 
@@ -50,89 +49,127 @@ void add(BinSums& a, const BinSums& b) {
   a.dry_rock_kg += b.dry_rock_kg;
 }
 
-/// Rocks of one bin (or of all, bin = -1) that left in a window.
-struct SizeSample {
-  std::vector<double> size, mass;
+/// What left through one bin (or all bins) in one part of the window.
+struct Contents {
+  BinSums sums;
+  std::vector<double> size, mass;  ///< of the rocks
 };
 
-SizeSample sizes_in(const RockRecord& rocks, TimeWindow w, int bin) {
-  SizeSample sample;
+/// The window cut into batches of whole slots. Part 0 holds the slots before the first batch.
+struct WindowParts {
+  SlotRange slots;
+  Batches batches;
+  double interval = 0;  ///< [s]
+
+  std::size_t count() const { return batches.count + 1; }
+  std::size_t of_slot(std::size_t slot) const {
+    const std::size_t k = slot - slots.first;
+    return k < batches.first ? 0 : 1 + (k - batches.first) / batches.length;
+  }
+  /// [s] of the window but for one part.
+  double seconds_without(std::size_t part) const {
+    const std::size_t left_out = part == 0 ? 0 : batches.length;
+    return static_cast<double>(slots.count() - left_out) * interval;
+  }
+};
+
+/// Part 0 is always there: leaving it out stands for leaving nothing out.
+constexpr std::size_t nothing = 0;
+
+/// Contents[bin][part].
+std::vector<std::vector<Contents>> contents_of(const ExitTally& tally, const WindowParts& parts) {
+  std::vector<std::vector<Contents>> bins(tally.bin_count(), std::vector<Contents>(parts.count()));
+  for (std::size_t slot = parts.slots.first; slot < parts.slots.last; ++slot)
+    for (std::size_t bin = 0; bin < bins.size(); ++bin)
+      add(bins[bin][parts.of_slot(slot)].sums, sums_at(tally, slot, bin));
+  const RockRecord& rocks = tally.rocks();
   for (std::size_t i = 0; i < rocks.count(); ++i) {
-    if (rocks.t[i] < w.from || rocks.t[i] >= w.to || (bin >= 0 && rocks.bin[i] != bin)) continue;
-    sample.size.push_back(rocks.size[i]);
-    sample.mass.push_back(rocks.mass[i]);
+    const auto slot = static_cast<std::size_t>(std::max(0.0, rocks.t[i] / parts.interval));
+    if (slot < parts.slots.first || slot >= parts.slots.last) continue;
+    Contents& c = bins[static_cast<std::size_t>(rocks.bin[i])][parts.of_slot(slot)];
+    c.size.push_back(rocks.size[i]);
+    c.mass.push_back(rocks.mass[i]);
   }
-  return sample;
+  return bins;
 }
 
-/// Figures of bins [first, last) as one.
-ExitFigures figures(const ExitTally& tally, SlotRange slots, std::size_t first, std::size_t last,
-                    double water_density) {
-  BinSums sum;
-  std::vector<double> rock, water;
-  for (std::size_t slot = slots.first; slot < slots.last; ++slot) {
-    BinSums in_slot;
-    for (std::size_t bin = first; bin < last; ++bin) add(in_slot, sums_at(tally, slot, bin));
-    rock.push_back(in_slot.rock_kg / tally.interval());
-    water.push_back(in_slot.water_kg / tally.interval());
-    add(sum, in_slot);
+/// Bins [first, last) as one, without one part.
+Contents joined(const std::vector<std::vector<Contents>>& bins, std::size_t first, std::size_t last,
+                std::size_t left_out) {
+  Contents all;
+  for (std::size_t bin = first; bin < last; ++bin)
+    for (std::size_t part = 0; part < bins[bin].size(); ++part) {
+      if (part == left_out && left_out != nothing) continue;
+      const Contents& c = bins[bin][part];
+      add(all.sums, c.sums);
+      all.size.insert(all.size.end(), c.size.begin(), c.size.end());
+      all.mass.insert(all.mass.end(), c.mass.begin(), c.mass.end());
+    }
+  return all;
+}
+
+struct Figure {
+  Estimate ExitFigures::*where;
+  double (*of)(const Contents& c, double seconds, double water_density);
+};
+
+constexpr std::array<Figure, 14> all_figures = {{
+    {&ExitFigures::rock_kg_s, [](const Contents& c, double t, double) { return ratio(c.sums.rock_kg, t); }},
+    {&ExitFigures::water_kg_s, [](const Contents& c, double t, double) { return ratio(c.sums.water_kg, t); }},
+    {&ExitFigures::fines_kg_s, [](const Contents& c, double t, double) { return ratio(c.sums.fines_kg, t); }},
+    {&ExitFigures::dry_rock_kg_s,
+     [](const Contents& c, double t, double) { return ratio(c.sums.dry_rock_kg, t); }},
+    {&ExitFigures::rock_speed,
+     [](const Contents& c, double, double) { return ratio(c.sums.rock_momentum, c.sums.rock_kg); }},
+    {&ExitFigures::water_speed,
+     [](const Contents& c, double, double) { return ratio(c.sums.water_momentum, c.sums.water_kg); }},
+    {&ExitFigures::energy_per_rock,
+     [](const Contents& c, double, double) { return ratio(c.sums.rock_energy, c.sums.rock_count); }},
+    {&ExitFigures::rock_power,
+     [](const Contents& c, double t, double) { return ratio(c.sums.rock_energy, t); }},
+    {&ExitFigures::size_mean,
+     [](const Contents& c, double, double) { return ratio(c.sums.rock_size_kg, c.sums.rock_kg); }},
+    {&ExitFigures::p50,
+     [](const Contents& c, double, double) { return weighted_quantile(c.size, c.mass, 0.5); }},
+    {&ExitFigures::p80,
+     [](const Contents& c, double, double) { return weighted_quantile(c.size, c.mass, 0.8); }},
+    {&ExitFigures::residence,
+     [](const Contents& c, double, double) { return ratio(c.sums.rock_residence_kg, c.sums.rock_kg); }},
+    {&ExitFigures::m3_per_tonne,
+     [](const Contents& c, double, double density) {
+       return ratio((c.sums.water_kg - c.sums.fines_kg) / density, 1e-3 * c.sums.rock_kg);
+     }},
+    {&ExitFigures::dry_share,
+     [](const Contents& c, double, double) { return ratio(c.sums.dry_rock_kg, c.sums.rock_kg); }},
+}};
+
+/// Masses of a whole exit per bin, without one part.
+struct BinMasses {
+  std::vector<double> rock, rock2, water, water2;
+};
+
+BinMasses masses_of(const std::vector<std::vector<Contents>>& bins, std::size_t left_out) {
+  BinMasses m;
+  for (const std::vector<Contents>& parts : bins) {
+    BinSums sum;
+    for (std::size_t part = 0; part < parts.size(); ++part)
+      if (part != left_out || left_out == nothing) add(sum, parts[part].sums);
+    m.rock.push_back(sum.rock_kg);
+    m.rock2.push_back(sum.rock_kg2);
+    m.water.push_back(sum.water_kg);
+    m.water2.push_back(sum.water_kg2);
   }
-  const double width = (tally.config().width_to - tally.config().width_from).norm();
-  const double per_bin = width / static_cast<double>(tally.bin_count());
-  const double seconds = static_cast<double>(slots.count()) * tally.interval();
-  const TimeWindow window{static_cast<double>(slots.first) * tally.interval(),
-                          static_cast<double>(slots.last) * tally.interval()};
-  const SizeSample sizes = sizes_in(tally.rocks(), window, last - first == 1 ? static_cast<int>(first) : -1);
-
-  ExitFigures f;
-  f.from = static_cast<double>(first) * per_bin;
-  f.to = static_cast<double>(last) * per_bin;
-  f.rock_kg_s = batch_mean(rock);
-  f.water_kg_s = batch_mean(water);
-  f.fines_kg_s = ratio(sum.fines_kg, seconds);
-  f.rock_count = sum.rock_count;
-  f.rock_speed = ratio(sum.rock_momentum, sum.rock_kg);
-  f.water_speed = ratio(sum.water_momentum, sum.water_kg);
-  f.energy_per_rock = ratio(sum.rock_energy, sum.rock_count);
-  f.size_mean = ratio(sum.rock_size_kg, sum.rock_kg);
-  f.p50 = weighted_quantile(sizes.size, sizes.mass, 0.5);
-  f.p80 = weighted_quantile(sizes.size, sizes.mass, 0.8);
-  f.residence = ratio(sum.rock_residence_kg, sum.rock_kg);
-  f.m3_per_tonne = ratio((sum.water_kg - sum.fines_kg) / water_density, 1e-3 * sum.rock_kg);
-  f.dry_share = ratio(sum.dry_rock_kg, sum.rock_kg);
-  return f;
+  return m;
 }
 
-/// corrected^2 = raw^2 - floor^2, at least 0.
-Evenness corrected(double raw2, double floor2) {
-  return {std::sqrt(raw2), std::sqrt(floor2), std::sqrt(std::max(0.0, raw2 - floor2))};
-}
+struct ThreeEvenness {
+  Evenness rock, water, water_to_rock;
+};
 
-/// Mass of a typical particle as the mass sees it: sum m^2 / sum m.
-double effective_mass(const std::vector<double>& masses, const std::vector<double>& squares) {
-  double m = 0, m2 = 0;
-  for (double x : masses) m += x;
-  for (double x : squares) m2 += x;
-  return m > 0 ? m2 / m : 0;
-}
-
-Evenness ratio_evenness(const std::vector<double>& rock, const std::vector<double>& water, double rock_grain,
-                        double water_grain) {
-  double all_rock = 0, all_water = 0;
-  std::size_t filled = 0;
-  for (std::size_t b = 0; b < rock.size(); ++b) {
-    if (rock[b] <= 0) continue;
-    all_rock += rock[b];
-    all_water += water[b];
-    ++filled;
-  }
-  if (filled < 2 || all_water <= 0) return {not_known, not_known, not_known};
-  const double overall = all_water / all_rock;
-  double square = 0;
-  for (std::size_t b = 0; b < rock.size(); ++b)
-    if (rock[b] > 0) square += rock[b] * std::pow(water[b] / rock[b] / overall - 1, 2);
-  const auto n = static_cast<double>(filled);
-  return corrected(square / all_rock * n / (n - 1), n * (rock_grain + water_grain / overall) / all_rock);
+ThreeEvenness evenness_of(const BinMasses& m) {
+  return {
+      evenness(m.rock, m.rock2), evenness(m.water, m.water2),
+      ratio_evenness({m.rock, m.water, effective_mass(m.rock, m.rock2), effective_mass(m.water, m.water2)})};
 }
 
 template <class Pick>
@@ -148,31 +185,52 @@ std::vector<double> series(const ExitTally& tally, double until, Pick pick) {
 
 }  // namespace
 
-Evenness evenness(const std::vector<double>& masses, const std::vector<double>& squares) {
-  const double per_bin = mean(masses);
-  if (masses.size() < 2 || per_bin <= 0) return {not_known, not_known, not_known};
-  return corrected(variance(masses) / (per_bin * per_bin), effective_mass(masses, squares) / per_bin);
-}
-
 ExitDistribution exit_distribution(const ExitTally& tally, TimeWindow window, double water_density) {
-  const SlotRange slots = slots_in(tally, window);
+  WindowParts parts;
+  parts.slots = slots_in(tally, window);
+  parts.batches = batches_of(parts.slots.count());
+  parts.interval = tally.interval();
+  const std::vector<std::vector<Contents>> bins = contents_of(tally, parts);
+
+  const auto figures = [&](std::size_t first, std::size_t last) {
+    std::vector<Contents> without;
+    for (std::size_t part = 0; part < parts.count(); ++part)
+      without.push_back(joined(bins, first, last, part));
+    ExitFigures f;
+    const double width = (tally.config().width_to - tally.config().width_from).norm();
+    const double per_bin = width / static_cast<double>(tally.bin_count());
+    f.from = static_cast<double>(first) * per_bin;
+    f.to = static_cast<double>(last) * per_bin;
+    f.rock_count = without[nothing].sums.rock_count;
+    for (const Figure& figure : all_figures) {
+      std::vector<double> values;
+      for (std::size_t part = 0; part < parts.count(); ++part)
+        values.push_back(figure.of(without[part], parts.seconds_without(part), water_density));
+      f.*figure.where = {values[nothing], jackknife_half_width({values.begin() + 1, values.end()})};
+    }
+    return f;
+  };
+
   ExitDistribution d;
-  d.window = {static_cast<double>(slots.first) * tally.interval(),
-              static_cast<double>(slots.last) * tally.interval()};
-  std::vector<double> rock, rock2, water, water2;
-  for (std::size_t bin = 0; bin < tally.bin_count(); ++bin) {
-    d.bins.push_back(figures(tally, slots, bin, bin + 1, water_density));
-    BinSums sum;
-    for (std::size_t slot = slots.first; slot < slots.last; ++slot) add(sum, sums_at(tally, slot, bin));
-    rock.push_back(sum.rock_kg);
-    rock2.push_back(sum.rock_kg2);
-    water.push_back(sum.water_kg);
-    water2.push_back(sum.water_kg2);
+  d.window = {static_cast<double>(parts.slots.first) * tally.interval(),
+              static_cast<double>(parts.slots.last) * tally.interval()};
+  for (std::size_t bin = 0; bin < tally.bin_count(); ++bin) d.bins.push_back(figures(bin, bin + 1));
+  d.all = figures(0, tally.bin_count());
+
+  const ThreeEvenness whole = evenness_of(masses_of(bins, nothing));
+  std::vector<Evenness> rock, water, water_to_rock;
+  for (std::size_t part = 1; part < parts.count(); ++part) {
+    const ThreeEvenness without = evenness_of(masses_of(bins, part));
+    rock.push_back(without.rock);
+    water.push_back(without.water);
+    water_to_rock.push_back(without.water_to_rock);
   }
-  d.all = figures(tally, slots, 0, tally.bin_count(), water_density);
-  d.rock = evenness(rock, rock2);
-  d.water = evenness(water, water2);
-  d.water_to_rock = ratio_evenness(rock, water, effective_mass(rock, rock2), effective_mass(water, water2));
+  d.rock = whole.rock;
+  d.water = whole.water;
+  d.water_to_rock = whole.water_to_rock;
+  set_limits(d.rock, rock);
+  set_limits(d.water, water);
+  set_limits(d.water_to_rock, water_to_rock);
   return d;
 }
 

@@ -13,6 +13,7 @@ struct RunOptions {
   int threads = 0;            ///< 0: all
   std::string until;          ///< with unit; empty: the process's duration
   bool resume = false;
+  bool whole = false;  ///< to its end, whatever `stop` says
   std::vector<std::string> overrides;
 };
 int run_process(const RunOptions& options);
@@ -26,6 +27,7 @@ int check_process(const CheckOptions& options);
 struct ExplainOptions {
   std::string key;
   bool schema = false;
+  bool study = false;  ///< keys of a study instead of a process
 };
 int explain_keys(const ExplainOptions& options);
 
@@ -34,6 +36,28 @@ struct ReportOptions {
   std::filesystem::path out;
 };
 int report_runs(const ReportOptions& options);
+
+/// A process over a ladder of settings of one key.
+struct ConvergeOptions {
+  std::filesystem::path process;
+  std::string vary;           ///< path of the key
+  std::string over;           ///< settings, coarse to fine, with commas between
+  std::filesystem::path out;  ///< empty: out/ + the process file's stem and the key
+  int threads = 0;            ///< 0: all
+  std::string until;          ///< with unit; empty: the process's duration
+  std::vector<std::string> overrides;
+};
+int converge_process(const ConvergeOptions& options);
+
+/// A process x variations.
+struct StudyOptions {
+  std::filesystem::path study;
+  std::filesystem::path out;  ///< empty: out/ + the study file's stem
+  int threads = 0;            ///< 0: all
+  std::string until;          ///< with unit; empty: as the study says
+  std::vector<std::string> overrides;
+};
+int run_study(const StudyOptions& options);
 
 /// Textbook cases of `validation/`, up their ladders.
 struct ValidateOptions {

@@ -1,6 +1,6 @@
-/// sluice: run | check | explain | report | validate. What each does is in its own file; here are the command
-/// line and the exit codes: 0 done, 1 a bug, 2 bad input, 3 numerical failure, 4 environment, 5 a validation
-/// case missed its gate, 130 interrupted.
+/// sluice: run | check | explain | report | converge | study | validate. What each does is in its own file;
+/// here are the command line and the exit codes: 0 done, 1 a bug, 2 bad input, 3 numerical failure, 4
+/// environment, 5 a validation case missed its gate, 130 interrupted.
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
   run_command->add_option("--threads", run.threads, "threads [all]")->check(CLI::Range(1, 1024));
   run_command->add_option("--until", run.until, "end at this simulated time, such as '2 s'");
   run_command->add_flag("--resume", run.resume, "go on from the run folder's checkpoint");
+  run_command->add_flag("--no-stop", run.whole, "run to the end, whatever 'stop' says");
   run_command->add_option("--set", run.overrides, "key=value, over the process file; may be repeated");
 
   sluice::CheckOptions check;
@@ -61,12 +62,34 @@ int main(int argc, char** argv) {
   sluice::ExplainOptions explain;
   CLI::App* explain_command = app.add_subcommand("explain", "every key: meaning, unit, range, default");
   explain_command->add_option("key", explain.key, "one key, such as water.spacing");
+  explain_command->add_flag("--study", explain.study, "the keys of a study file");
   explain_command->add_flag("--schema", explain.schema, "print the JSON Schema for editors");
 
   sluice::ReportOptions report;
   CLI::App* report_command = app.add_subcommand("report", "page of one run; comparison of several");
   report_command->add_option("runs", report.runs, "run folders")->required();
   report_command->add_option("--out", report.out, "comparison page [comparison.html]");
+
+  sluice::ConvergeOptions converge;
+  CLI::App* converge_command = app.add_subcommand(
+      "converge", "run a process over a ladder of one key; what a finer setting changes, and what it costs");
+  converge_command->add_option("process", converge.process, "process file (YAML)")->required();
+  converge_command->add_option("--vary", converge.vary, "key, such as water.spacing")->required();
+  converge_command->add_option("--over", converge.over, "settings, coarse to fine: '40 mm, 20 mm'")
+      ->required();
+  converge_command->add_option("--out", converge.out, "folder of the runs and the page [out/NAME-KEY]");
+  converge_command->add_option("--threads", converge.threads, "threads [all]")->check(CLI::Range(1, 1024));
+  converge_command->add_option("--until", converge.until, "end every run at this simulated time");
+  converge_command->add_option("--set", converge.overrides,
+                               "key=value, over the process file; may be repeated");
+
+  sluice::StudyOptions study;
+  CLI::App* study_command = app.add_subcommand("study", "a process x variations: run them, compare them");
+  study_command->add_option("study", study.study, "study file (YAML)")->required();
+  study_command->add_option("--out", study.out, "folder of the runs and the page [out/NAME]");
+  study_command->add_option("--threads", study.threads, "threads [all]")->check(CLI::Range(1, 1024));
+  study_command->add_option("--until", study.until, "end every run at this simulated time");
+  study_command->add_option("--set", study.overrides, "key=value, over all variations; may be repeated");
 
   sluice::ValidateOptions validate;
   CLI::App* validate_command =
@@ -89,8 +112,10 @@ int main(int argc, char** argv) {
   } catch (const CLI::RequiredError& e) {
     // CLI11 says only that a command is required, also where one was misspelt.
     if (argc > 1 && app.get_subcommands().empty())
-      std::fprintf(stderr, "'%s' is not a command (there are run, check, explain, report and validate)\n",
-                   argv[1]);
+      std::fprintf(
+          stderr,
+          "'%s' is not a command (there are run, check, explain, report, converge, study and validate)\n",
+          argv[1]);
     app.exit(e);
     return 2;
   } catch (const CLI::ParseError& e) {
@@ -102,6 +127,8 @@ int main(int argc, char** argv) {
     if (run_command->parsed()) return sluice::run_process(run);
     if (check_command->parsed()) return sluice::check_process(check);
     if (explain_command->parsed()) return sluice::explain_keys(explain);
+    if (converge_command->parsed()) return sluice::converge_process(converge);
+    if (study_command->parsed()) return sluice::run_study(study);
     if (validate_command->parsed()) return sluice::validate_cases(validate);
     return sluice::report_runs(report);
   });

@@ -1,6 +1,7 @@
 #include "app/process_source.h"
 
 #include "base/sha256.h"
+#include "base/units.h"
 #include "output/run_folder.h"
 #include "processes/process_document.h"
 #include "sluice_version.h"
@@ -19,6 +20,18 @@ ProcessSource read_process_source(const std::filesystem::path& file,
   for (const std::string& set : overrides) all += set + '\0';
   source.sha256 = sha256(all);
   return source;
+}
+
+double end_of_run(const ProcessConfig& config, const std::string& text) {
+  if (text.empty()) return config.duration;
+  const Quantity until = read_quantity(text, "s");
+  if (!until.value || !(*until.value > 0))
+    throw InputError(InputProblem{{"--until", 0, 0},
+                                  "until",
+                                  until.value ? "is not positive" : until.problem,
+                                  until.reason,
+                                  until.suggestion.empty() ? "write --until '2 s'" : until.suggestion});
+  return *until.value;
 }
 
 std::string program_name() {

@@ -18,6 +18,10 @@ struct ProcessSource {
 ProcessSource read_process_source(const std::filesystem::path& file,
                                   const std::vector<std::string>& overrides);
 
+/// When a run ends [s]: at `until`, or the process's duration where that is empty.
+/// @throws InputError  not a time
+double end_of_run(const ProcessConfig& config, const std::string& until);
+
 std::string program_name();  ///< "sluice 0.1.0 (commit)"
 
 }  // namespace sluice

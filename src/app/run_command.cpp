@@ -12,7 +12,6 @@
 #include "app/recorder.h"
 #include "app/summary.h"
 #include "base/parallel.h"
-#include "base/units.h"
 #include "output/view.h"
 #include "processes/build_parts.h"
 #include "reports/run_page.h"
@@ -28,18 +27,6 @@ void on_signal(int) {
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-double end_time(const RunOptions& options, const ProcessConfig& config) {
-  if (options.until.empty()) return config.duration;
-  const Quantity until = read_quantity(options.until, "s");
-  if (!until.value || !(*until.value > 0))
-    throw InputError(InputProblem{{"--until", 0, 0},
-                                  "until",
-                                  until.value ? "is not positive" : until.problem,
-                                  until.reason,
-                                  until.suggestion.empty() ? "write --until '2 s'" : until.suggestion});
-  return *until.value;
 }
 
 /// Rock that left by the stop's exit over its averaging time, over what the feeds ask for.
@@ -97,9 +84,10 @@ Run::Run(const RunOptions& options) : options_(options) {
   if (options.threads > 0) set_thread_count(options.threads);
   source_ = read_process_source(options.process, options.overrides);
   config_ = source_.config;
+  if (options_.whole) config_.stop.reset();
   built_ = build_parts(config_);
   warnings_ = built_.warnings;
-  end_ = end_time(options_, config_);
+  end_ = end_of_run(config_, options_.until);
   const std::filesystem::path out =
       options.out.empty() ? std::filesystem::path("out") / options.process.stem() : options.out;
   if (options.resume && !std::filesystem::is_directory(out))
@@ -176,7 +164,7 @@ int Run::finish(Outcome outcome, const std::optional<RunManifest::Failure>& fail
   save();
   recorder_->write_frame(*simulation_);
   const double wall = wall_before_ + seconds_since(start_);
-  write_summary(folder_, {source_, *simulation_, built_.rock_rate, wall, warnings_}, outcome, failure);
+  write_summary(folder_, {source_, *simulation_, end_, built_.rock_rate, wall, warnings_}, outcome, failure);
   const SceneView view = simulation_->view();
   write_view(folder_.view(),
              make_view(take_snapshot(view.t, config_.gravity, view.rocks, view.water, *view.walls),
@@ -207,7 +195,7 @@ int Run::go() {
       if (recorder_->checkpoint_due(*simulation_)) {
         save();
         keep_in_memory();
-        write_manifest(folder_.manifest(), make_manifest({source_, *simulation_, built_.rock_rate,
+        write_manifest(folder_.manifest(), make_manifest({source_, *simulation_, end_, built_.rock_rate,
                                                           wall_before_ + seconds_since(start_), warnings_},
                                                          Outcome::running, std::nullopt));
         if (early.reached(*simulation_)) {

@@ -88,19 +88,57 @@ std::optional<double> known(double x) {
   return std::isfinite(x) ? std::optional<double>(x) : std::nullopt;
 }
 
+/// Every figure of the exit over its window, of what the scene has.
+RunManifest::ExitAverages averages_of(const ExitResult& result, const Parts& parts) {
+  const ExitDistribution& d = result.distribution;
+  RunManifest::ExitAverages a;
+  a.from_s = d.window.from;
+  a.to_s = d.window.to;
+  a.steady = result.steady_from.has_value();
+  a.reason = result.reason;
+  const auto add = [&](const char* name, const Estimate& e) {
+    a.figures.push_back({name, e.value, e.value - e.half_width, e.value + e.half_width});
+  };
+  const auto add_evenness = [&](const std::string& phase, const Evenness& e) {
+    add((phase + "_cov_across_width").c_str(), {e.raw, e.raw_half_width});
+    add((phase + "_cov_corrected").c_str(), {e.corrected, e.corrected_half_width});
+  };
+  if (parts.rocks) {
+    add("rock_kg_s", d.all.rock_kg_s);
+    add_evenness("rock", d.rock);
+    add("rock_size_p80_m", d.all.p80);
+    add("rock_speed_m_s", d.all.rock_speed);
+    add("rock_energy_W", d.all.rock_power);
+    add("rock_residence_s", d.all.residence);
+  }
+  if (parts.water) {
+    add("water_kg_s", d.all.water_kg_s);
+    add_evenness("water", d.water);
+    add("water_speed_m_s", d.all.water_speed);
+  }
+  if (parts.rocks && parts.water) {
+    add("water_to_rock_cov", {d.water_to_rock.raw, d.water_to_rock.raw_half_width});
+    add("water_m3_per_t", d.all.m3_per_tonne);
+    add("dry_rock_fraction", d.all.dry_share);
+    add("fines_kg_s", d.all.fines_kg_s);
+  }
+  return a;
+}
+
 RunManifest::ExitSummary summary_of(const ExitResult& result, const ExitTally& tally, const Parts& parts) {
   RunManifest::ExitSummary s;
   s.name = result.name;
   s.rock_kg = parts.rocks ? known(tally.rock_kg()) : std::nullopt;
   s.water_kg = parts.water ? known(tally.water_kg()) : std::nullopt;
   s.steady_from_s = result.steady_from;
+  s.averages = averages_of(result, parts);
   if (!result.steady_from) return s;
   const ExitDistribution& d = result.distribution;
   if (parts.rocks) {
     s.rock_kg_s = known(d.all.rock_kg_s.value);
     s.rock_cov_across_width = known(d.rock.raw);
     s.rock_cov_corrected = known(d.rock.corrected);
-    s.rock_size_p80_m = known(d.all.p80);
+    s.rock_size_p80_m = known(d.all.p80.value);
   }
   if (parts.water) {
     s.water_kg_s = known(d.all.water_kg_s.value);
@@ -108,8 +146,8 @@ RunManifest::ExitSummary summary_of(const ExitResult& result, const ExitTally& t
   }
   if (parts.rocks && parts.water) {
     s.water_to_rock_cov = known(d.water_to_rock.raw);
-    s.water_m3_per_t = known(d.all.m3_per_tonne);
-    s.dry_rock_fraction = known(d.all.dry_share);
+    s.water_m3_per_t = known(d.all.m3_per_tonne.value);
+    s.dry_rock_fraction = known(d.all.dry_share.value);
   }
   return s;
 }
@@ -120,7 +158,7 @@ void fill_clock(RunManifest& m, const RunState& run) {
   m.time.simulated_s = simulation.time();
   m.time.wall_s = run.wall_seconds;
   m.time.steps = static_cast<std::int64_t>(simulation.steps());
-  m.time.planned_s = run.source.config.duration;
+  m.time.planned_s = run.planned;
   if (parts.water) {
     m.time.dt_fluid_s = simulation.time_step().dt_fluid();
     m.time.fluid_steps = m.time.steps * simulation.time_step().fluid_substeps;
@@ -184,7 +222,6 @@ ExitBinRow bin_row(const ExitResult& exit, std::size_t bin, const Parts& parts) 
   const auto limits = [](const Estimate& e) {
     return TableEstimate{e.value, e.value - e.half_width, e.value + e.half_width};
   };
-  const double seconds = exit.distribution.window.to - exit.distribution.window.from;
   ExitBinRow row;
   row.exit = exit.name;
   row.bin = static_cast<int>(bin);
@@ -194,20 +231,20 @@ ExitBinRow bin_row(const ExitResult& exit, std::size_t bin, const Parts& parts) 
   row.to_s = exit.distribution.window.to;
   if (parts.rocks) {
     row.rock_kg_s = limits(f.rock_kg_s);
-    row.rock_speed_m_s = f.rock_speed;
-    row.rock_size_mean_m = f.size_mean;
-    row.rock_size_p80_m = f.p80;
-    row.rock_energy_W = seconds > 0 ? f.energy_per_rock * f.rock_count / seconds : not_known;
-    row.rock_residence_s = f.residence;
+    row.rock_speed_m_s = limits(f.rock_speed);
+    row.rock_size_mean_m = limits(f.size_mean);
+    row.rock_size_p80_m = limits(f.p80);
+    row.rock_energy_W = limits(f.rock_power);
+    row.rock_residence_s = limits(f.residence);
   }
   if (parts.water) {
     row.water_kg_s = limits(f.water_kg_s);
-    row.fines_kg_s = f.fines_kg_s;
-    row.water_speed_m_s = f.water_speed;
+    row.fines_kg_s = limits(f.fines_kg_s);
+    row.water_speed_m_s = limits(f.water_speed);
   }
   if (parts.rocks && parts.water) {
-    row.water_m3_per_t = {f.m3_per_tonne, not_known, not_known};
-    row.dry_rock_kg_s = f.dry_share * f.rock_kg_s.value;
+    row.water_m3_per_t = limits(f.m3_per_tonne);
+    row.dry_rock_kg_s = limits(f.dry_rock_kg_s);
   }
   return row;
 }

@@ -17,6 +17,7 @@ namespace sluice {
 struct RunState {
   const ProcessSource& source;
   const Simulation& simulation;
+  double planned = 0;       ///< end asked for [s]
   double rock_rate = 0;     ///< that the feeds ask for, fines apart [kg/s]
   double wall_seconds = 0;  ///< of run time so far
   const std::vector<std::string>& warnings;

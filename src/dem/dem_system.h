@@ -111,9 +111,9 @@ class DemSystem {
   /// Adds wetted fraction x dt to each rock's wet dose; one entry per rock.
   void add_wet_dose(std::span<const double> wetted_fraction, double dt);
 
-  /// One time step of `dt` [s] starting at time `t` [s].
+  /// One time step of `dt` [s] starting at time `t` [s]; one of no time finds the forces on rocks that touch.
   /// @throws NumericalError: NaN, overlap beyond the limit
-  /// @throws std::invalid_argument: dt is not positive
+  /// @throws std::invalid_argument: dt is negative, or zero where walls move
   void step(double t, double dt);
   /// `n` of them: the same bits as one after the other, in less time.
   void steps(double t, double dt, int n);

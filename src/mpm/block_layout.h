@@ -25,6 +25,7 @@ class BlockLayout {
   double h() const { return h_; }
   const Vec3& origin() const { return origin_; }  ///< of node (0, 0, 0) [m]
   const Vec3i& cells() const { return cells_; }
+  const Vec3i& blocks() const { return blocks_; }
   std::int32_t block_count() const { return blocks_.x() * blocks_.y() * blocks_.z(); }
 
   Vec3i block_place(std::int32_t block) const {

@@ -77,16 +77,14 @@ std::uint64_t ExplicitMpm<Real>::add(const NewPoint& point) {
   Point p{};
   for (int r = 0; r < 3; ++r) {
     p.x[r] = quantised(static_cast<Real>(cells[r] - nearest[r]));
-    p.before[r] = p.x[r];
     p.v[r] = static_cast<Real>(point.v[r]);
   }
-  p.dilation = static_cast<Real>(point.J - 1.0);
-  p.mass = static_cast<Real>(point.mass);
-  p.volume = static_cast<Real>(volume);
+  p.x[3] = static_cast<Real>(point.J - 1.0);
+  p.v[3] = static_cast<Real>(point.mass);
+  p.C[0][3] = static_cast<Real>(volume);
   const double viscosity = slurry_viscosity(fluid, phi);
-  p.viscosity = static_cast<Real>(viscosity);
-  p.void_fraction = 1;
-  p.fill = 1;
+  p.C[1][3] = static_cast<Real>(viscosity);
+  p.C[2][3] = 1;
   const double kinematic = viscosity * volume / point.mass;
   if (kinematic > largest_kinematic_viscosity_) {
     largest_kinematic_viscosity_ = kinematic;
@@ -117,14 +115,14 @@ WaterPoints ExplicitMpm<Real>::points() const {
   parallel_for(n, [&](std::size_t i) {
     const std::size_t slot = order[i];
     const Point& p = store_.points[slot];
-    const double J = 1.0 + static_cast<double>(p.dilation);
+    const double J = 1.0 + static_cast<double>(p.dilation());
     out.id[i] = store_.id[slot];
     out.x[i] = domain_.wrapped(position(p.x, store_.key[slot]));
     out.v[i] = velocity_of(p);
     out.mass[i] = store_.mass[slot];
     out.fines_mass[i] = fines_of(slot);
     out.J[i] = J;
-    out.pressure[i] = pressure_of(store_.mass[slot] / static_cast<double>(p.volume), sound_speed_, J);
+    out.pressure[i] = pressure_of(store_.mass[slot] / static_cast<double>(p.volume()), sound_speed_, J);
   });
   return out;
 }
@@ -140,7 +138,8 @@ std::vector<RemovedPoint> ExplicitMpm<Real>::remove_if(
       const Point& p = store_.points[slot];
       const Vec3 corner = layout_.node_position(layout_.cell_of(store_.key[slot]));
       const double h = config_.spacing;
-      if (leaves(corner + h * Vec3(p.before[0], p.before[1], p.before[2]),
+      const Place& before = store_.before[slot];
+      if (leaves(corner + h * Vec3(before[0], before[1], before[2]),
                  corner + h * Vec3(p.x[0], p.x[1], p.x[2])))
         found[c].push_back(static_cast<std::uint32_t>(slot));
     }
@@ -211,13 +210,16 @@ std::uint64_t ExplicitMpm<Real>::state_hash() const {
     hash = mix64(hash ^ static_cast<std::uint32_t>(store_.key[slot]));
     for (int r = 0; r < 3; ++r) hash = mix64(hash ^ bits_of(p.x[r]));
     for (int r = 0; r < 3; ++r) hash = mix64(hash ^ bits_of(p.v[r]));
-    return mix64(hash ^ bits_of(p.dilation));
+    return mix64(hash ^ bits_of(p.dilation()));
   });
 }
 
 template <class Real>
 std::size_t ExplicitMpm<Real>::memory_bytes() const {
-  return store_.memory_bytes() + grid_.memory_bytes() + tiles_.capacity() * sizeof(Node) +
+  std::size_t blocks_of_colours = 0;
+  for (const auto& colour : colours_) blocks_of_colours += colour.capacity();
+  return store_.memory_bytes() + grid_.memory_bytes() + scatter_scratch_.capacity() * sizeof(ScatterScratch) +
+         gather_scratch_.capacity() * sizeof(GatherScratch) + blocks_of_colours * sizeof(std::uint32_t) +
          node_begin_.capacity() * sizeof(std::uint32_t) + impulse_.capacity() * sizeof(Vec3) +
          impulses_.capacity() * sizeof(WallImpulses) + reports_.capacity() * sizeof(BlockReport) +
          (field_ ? field_->memory_bytes() : 0);

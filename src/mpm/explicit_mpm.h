@@ -1,9 +1,10 @@
 #pragma once
 /// Explicit material point method for weakly compressible water, in float (production) or double.
 ///
-///   points_to_grid   bin points; each block of points scatters into a tile of its own (6 x 6 x 6 nodes of
-///                    16 lanes); node blocks add up the tiles that reach them, in a fixed order: no atomics,
-///                    the same bits for any number of threads
+///   points_to_grid   bin points; a block of points scatters into a tile (6 x 6 x 6 nodes of 16 lanes) and
+///   adds
+///                    it to the grid. Blocks of one colour share no node, and colours take turns in a fixed
+///                    order: no atomics, the same bits for any number of threads
 ///   walls            nodes beside walls: pressure closure, no flow through, friction; coupling impulses
 ///   grid_to_points   each block copies its 6 x 6 x 6 nodes and moves its points
 ///
@@ -65,15 +66,23 @@ class ExplicitMpm final : public FluidSystem {
 
  private:
   using Point = MaterialPoint<Real>;
+  using Place = typename PointStore<Real>::Place;
   using Node = Lanes<Real>;
+  using Vector = Quad<Real>;  ///< three components
 
   /// What all points share in a step.
   struct StepNumbers {
     double t = 0, dt = 0;
     Real relax_velocity = 0;  ///< a: share of the grid's velocity taken in a step
     Real relax_dilation = 0;
-    Real anchor = 0;  ///< dt / t_R
-    Real shift = 0;   ///< per fill gradient [cells]
+    Real anchor = 0;        ///< dt / t_R
+    Real shift = 0;         ///< per fill gradient [cells]
+    Real h = 0, per_h = 0;  ///< grid spacing, and 4 / h: what a first moment means for C
+    Real c2 = 0;            ///< of the speed of sound
+    Real stress = 0;        ///< 4 dt / h
+    Real dt_real = 0;
+    Real cells_per_speed = 0;     ///< dt / h
+    Real dilation_per_speed = 0;  ///< h / (dt c2)
   };
   /// Nodes around a block, with what only the place knows.
   struct NodeTile {
@@ -92,45 +101,72 @@ class ExplicitMpm final : public FluidSystem {
     Real move = 0;  ///< of the culprit, along an axis [cells]
     std::uint32_t culprit = 0;
   };
+  /// What a point gives its nodes at (i, j, k) in {-1, 0, 1}: w (middle + i slope_0 + j slope_1 + k slope_2).
+  struct Contribution {
+    Node middle, slope[3];
+    Vector weight[9];  ///< of nodes i, per j + 3 k; the fourth is 0
+  };
+  /// What a thread needs to scatter or move a block.
+  struct ScatterScratch {
+    static constexpr int batch = 16;
+    Node tile[BlockLayout::tile_nodes];
+    Contribution point[batch];
+  };
   /// What a point gathers from its 27 nodes: weighted sums, and sums of w d with d in cells.
   struct Gathered {
-    Real change[3];    ///< of v [m/s]
-    Real velocity[3];  ///< b v_old [m/s]
-    Real pressure[3];  ///< change of v by pressure alone [m/s]
-    Real centre[3];    ///< mean x_p - x_i there [cells]
+    Vector change;     ///< of v [m/s]
+    Vector velocity;   ///< b v_old [m/s]
+    Vector pressure;   ///< change of v by pressure alone [m/s]
+    Vector centre;     ///< mean x_p - x_i there [cells]
+    Vector moment[3];  ///< of change + velocity, by columns like C [m/s]
     Real bulk, fill, dilation, least_fill;
-    Real moment[9];  ///< of change + velocity, row-major like C [m/s]
-    Real bulk_moment[3];
-    Real kept[6];  ///< of C: I - 4 sum b w d d^T, as xx yy zz yz xz xy
-    Real fill_moment[3];
+    Real bulk_moment[3], fill_moment[3];
+    bool knows_all;  ///< of C; else `kept` stays
+    Real kept[6];    ///< of C: I - 4 sum b w d d^T, as xx yy zz yz xz xy
+  };
+  struct GatherScratch {
+    static constexpr int batch = 16;
+    NodeTile tile;
+    Gathered gathered[batch];
+    Vector moved[batch];
   };
 
   std::vector<RemovedPoint> remove_slots(std::vector<std::uint32_t>& slots);
   void prepare_block(std::int32_t slot);
-  void scatter_block(std::size_t index);
-  void contribution(const Point& p, Node (&a)[4]) const;
-  void scatter_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, Node (&a)[4],
-                         Node* tile, WallImpulses& impulses) const;
-  void add_up_tiles(std::int32_t slot);
+  void scatter_block(std::size_t index, ScatterScratch& scratch);
+  void scatter(std::span<const Contribution> points, Node* corner) const;
+  void contribute(const Point& p, Contribution& a) const;
+  void hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
+                  WallImpulses& impulses) const;
+  void colour_blocks();
+  void add_tile(const PointBlock& block, const Node* tile);
   std::uint32_t finish_nodes(std::int32_t slot);
   void wall_block(std::int32_t slot, std::uint32_t first, WallImpulses& impulses);
   void close_pressure(Node& node, double volume, std::span<const WallPlane> planes, const Vec3& at,
                       WallImpulses& impulses) const;
   void hold_at_walls(Node& node, double volume, Vec3 cut_off, std::span<const WallPlane> planes,
                      const Vec3& at, WallImpulses& impulses) const;
+  /// Calls row(slot, node, tile_node, length) for each row of nodes, along the first axis, of a block's tile:
+  /// where it lies in a grid block and where in the tile.
+  template <class Row>
+  void visit_tile(const PointBlock& block, const Row& row) const;
   void load_tile(const PointBlock& block, NodeTile& tile) const;
-  void move_block(std::size_t index, NodeTile& tile);
+  void move_block(std::size_t index, GatherScratch& scratch);
+  void move_cell(std::span<const std::uint32_t> slots, std::size_t index, std::int32_t stencil,
+                 GatherScratch& scratch, BlockReport& report);
+  void share_step(double dt);
+  bool note(const Point& p, const Gathered& g, const Vector& moved, std::uint32_t slot,
+            BlockReport& report) const;
   void gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, const NodeTile& tile,
                         Gathered& g, WallImpulses& impulses) const;
   void gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   void gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   Real gather_void_fraction(const Point& p, int local, const NodeTile& tile) const;
-  void update(Point& p, const Gathered& g, Real (&moved)[3]) const;
-  void stop_at_walls(Point& p, std::int32_t cell_key, std::int32_t stencil, WallImpulses& impulses) const;
-  void settle_in_cell(Point& p, std::int32_t& cell_key) const;
-  int hiding_wall(const Visibility& seen, int node) const {
-    return field_->patch_wall(seen.patch[static_cast<std::size_t>(node)]);
-  }
+  Vector update(Point& p, const Gathered& g) const;
+  void stop_at_walls(Point& p, const Place& before, std::int32_t cell_key, std::int32_t stencil,
+                     WallImpulses& impulses) const;
+  void settle_in_cell(Point& p, Place& before, std::int32_t& cell_key) const;
+  int colour_of(const Vec3i& place) const;
   void check_reports();
   void pour_loads(std::size_t lists);
 
@@ -142,7 +178,8 @@ class ExplicitMpm final : public FluidSystem {
     return store_.fines.empty() ? fluid.viscosity : slurry_viscosity(fluid, fines_fraction(fluid, density));
   }
   double fines_of(std::size_t slot) const { return store_.fines.empty() ? 0.0 : store_.fines[slot]; }
-  Vec3 position(const Real* x, std::int32_t cell_key) const {
+  template <class Triple>
+  Vec3 position(const Triple& x, std::int32_t cell_key) const {
     return layout_.origin() +
            config_.spacing * (layout_.cell_of(cell_key).template cast<double>() + Vec3(x[0], x[1], x[2]));
   }
@@ -158,7 +195,9 @@ class ExplicitMpm final : public FluidSystem {
   std::unique_ptr<WallField> field_;  ///< absent without walls
 
   StepNumbers step_;
-  std::vector<Node> tiles_;  ///< tile_nodes per point block
+  std::vector<ScatterScratch> scatter_scratch_;      ///< per thread
+  std::vector<GatherScratch> gather_scratch_;        ///< per thread
+  std::vector<std::vector<std::uint32_t>> colours_;  ///< point blocks that may scatter at the same time
   std::vector<std::uint32_t> node_begin_{
       0};                               ///< index of the first node with mass per active block, and the end
   std::vector<Vec3> impulse_;           ///< from the coupling, in the order of read_nodes; empty = none
@@ -173,5 +212,31 @@ class ExplicitMpm final : public FluidSystem {
   Vec3 momentum_added_ = Vec3::Zero(), momentum_removed_ = Vec3::Zero();
   std::vector<WallLoad> loads_;
 };
+
+template <class Real>
+template <class Row>
+void ExplicitMpm<Real>::visit_tile(const PointBlock& block, const Row& row) const {
+  const Vec3i place = layout_.block_place(block.block);
+  const Vec3i width = layout_.width(place);
+  for (int bit = 0; bit < 27; ++bit) {
+    if (!(block.reach >> bit & 1)) continue;
+    const int step[3] = {bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
+    const std::int32_t there = layout_.neighbour(place, step[0], step[1], step[2]);
+    if (there == BlockLayout::none) continue;
+    const Vec3i width_there = layout_.width(layout_.block_place(there));
+    // Tile index along an axis: 0 is the neighbour below, 1..width this block, width + 1 the one above.
+    int lo[3], hi[3], shift[3];
+    for (int axis = 0; axis < 3; ++axis) {
+      lo[axis] = step[axis] < 0 ? 0 : step[axis] == 0 ? 1 : width[axis] + 1;
+      hi[axis] = step[axis] == 0 ? width[axis] + 1 : lo[axis] + 1;
+      shift[axis] = step[axis] < 0 ? width_there[axis] - 1 : -lo[axis];
+    }
+    const std::int32_t slot = grid_.slot_of(there);
+    for (int k = lo[2]; k < hi[2]; ++k)
+      for (int j = lo[1]; j < hi[1]; ++j)
+        row(slot, lo[0] + shift[0] + 4 * (j + shift[1]) + 16 * (k + shift[2]), lo[0] + 6 * j + 36 * k,
+            hi[0] - lo[0]);
+  }
+}
 
 }  // namespace sluice

@@ -6,7 +6,7 @@
 #include "base/errors.h"
 #include "base/parallel.h"
 #include "mpm/explicit_mpm.h"
-#include "mpm/spline_weights.h"
+#include "mpm/spline_sums.h"
 
 namespace sluice {
 
@@ -21,55 +21,36 @@ constexpr double largest_mach = 0.32;    ///< v/c at which the density error v2/
 
 template <class Real>
 void ExplicitMpm<Real>::grid_to_points(double dt) {
-  step_.dt = dt;
+  share_step(dt);
   const std::size_t blocks = store_.blocks().size();
-  parallel_for(
-      blocks,
-      [&](std::size_t b) {
-        NodeTile tile;
-        load_tile(store_.blocks()[b], tile);
-        move_block(b, tile);
-      },
-      1);
+  parallel_chunks_with(gather_scratch_, blocks, 1,
+                       [&](GatherScratch& scratch, std::size_t, std::size_t b, std::size_t) {
+                         load_tile(store_.blocks()[b], scratch.tile);
+                         move_block(b, scratch);
+                       });
   if (field_) pour_loads(blocks);
   check_reports();
 }
 
 template <class Real>
 void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const {
-  const Vec3i place = layout_.block_place(block.block);
-  const Vec3i width = layout_.width(place);
   for (Node& n : tile.node) n.clear();
   if (has_void_) std::fill_n(tile.void_fraction, BlockLayout::tile_nodes, Real(1));
-  for (int bit = 0; bit < 27; ++bit) {
-    if (!(block.reach >> bit & 1)) continue;
-    const int step[3] = {bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
-    const std::int32_t from = layout_.neighbour(place, step[0], step[1], step[2]);
-    if (from == BlockLayout::none) continue;
-    const std::int32_t slot = grid_.slot_of(from);
+  visit_tile(block, [&](std::int32_t slot, int from, int to, int length) {
     const Node* nodes = grid_.nodes(slot);
     const Real* voids = grid_.void_fraction(slot);
-    const Vec3i from_width = layout_.width(layout_.block_place(from));
-    // Tile index along an axis: 0 is the neighbour below, 1..width this block, width + 1 the one above.
-    int lo[3], hi[3], shift[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      lo[axis] = step[axis] < 0 ? 0 : step[axis] == 0 ? 1 : width[axis] + 1;
-      hi[axis] = step[axis] == 0 ? width[axis] + 1 : lo[axis] + 1;
-      shift[axis] = step[axis] < 0 ? from_width[axis] - 1 : -lo[axis];
+    if (length == BlockLayout::edge)
+      for (int n = 0; n < BlockLayout::edge; ++n) tile.node[to + n] = nodes[from + n];
+    else
+      for (int n = 0; n < length; ++n) tile.node[to + n] = nodes[from + n];
+    if (!has_void_) return;
+    for (int n = 0; n < length; ++n) {
+      // Rocks push on the water only where both together fill the space.
+      const Real ramp =
+          std::clamp((nodes[from + n][node_lane::fill] - Real(0.8)) / Real(0.15), Real(0), Real(1));
+      tile.void_fraction[to + n] = 1 - ramp * (1 - voids[from + n]);
     }
-    for (int k = lo[2]; k < hi[2]; ++k)
-      for (int j = lo[1]; j < hi[1]; ++j)
-        for (int i = lo[0]; i < hi[0]; ++i) {
-          const int source = i + shift[0] + 4 * (j + shift[1]) + 16 * (k + shift[2]);
-          const int n = i + 6 * j + 36 * k;
-          tile.node[n] = nodes[source];
-          if (!has_void_) continue;
-          // Rocks push on the water only where both together fill the space.
-          const Real ramp =
-              std::clamp((nodes[source][node_lane::fill] - Real(0.8)) / Real(0.15), Real(0), Real(1));
-          tile.void_fraction[n] = 1 - ramp * (1 - voids[source]);
-        }
-  }
+  });
   for (int local = 0; local < BlockLayout::nodes; ++local) {
     const int corner = (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
     Real least = tile.node[corner][node_lane::fill];
@@ -85,32 +66,17 @@ template <class Real>
 void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const {
   using namespace node_lane;
   const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
-  const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
-  const Real wdx[3] = {x.w[0] * x.d[0], x.w[1] * x.d[1], x.w[2] * x.d[2]};
-  Node sum, sum_x, sum_y, sum_z;
-  sum.clear(), sum_x.clear(), sum_y.clear(), sum_z.clear();
-  for (int k = 0; k < 3; ++k)
-    for (int j = 0; j < 3; ++j) {
-      const Node* row = corner + 6 * j + 36 * k;
-      const Real w = y.w[j] * z.w[k], wy = w * y.d[j], wz = w * z.d[k];
-      for (int r = 0; r < Node::registers; ++r) {
-        const auto plain = x.w[0] * row[0].part[r] + x.w[1] * row[1].part[r] + x.w[2] * row[2].part[r];
-        const auto first = wdx[0] * row[0].part[r] + wdx[1] * row[1].part[r] + wdx[2] * row[2].part[r];
-        sum.part[r] += w * plain;
-        sum_x.part[r] += w * first;
-        sum_y.part[r] += wy * plain;
-        sum_z.part[r] += wz * plain;
-      }
-    }
-  const Node* by_axis[3] = {&sum_x, &sum_y, &sum_z};
-  for (int r = 0; r < 3; ++r) {
-    g.change[r] = sum[change + r];
-    g.velocity[r] = sum[velocity + r];
-    g.pressure[r] = sum[gradient + r];
-    g.centre[r] = sum[centre + r];
-    g.bulk_moment[r] = (*by_axis[r])[node_lane::mass];
-    g.fill_moment[r] = (*by_axis[r])[fill];
-    for (int c = 0; c < 3; ++c) g.moment[3 * r + c] = (*by_axis[c])[change + r] + (*by_axis[c])[velocity + r];
+  Node sum;
+  typename Node::Half moment[3];
+  spline_sums<6, 36>(corner, p.x, sum, moment);
+  g.velocity = sum.quad(0);
+  g.change = sum.quad(1);
+  g.centre = sum.quad(2);
+  g.pressure = sum.quad(3);
+  for (int c = 0; c < 3; ++c) {
+    g.moment[c] = sum_of_quads<Real>(moment[c]);
+    g.bulk_moment[c] = moment[c][node_lane::mass];
+    g.fill_moment[c] = moment[c][fill];
   }
   g.bulk = sum[node_lane::mass];
   g.fill = sum[fill];
@@ -124,9 +90,9 @@ void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, 
 /// own C on the grid, and what it gets back must not exceed what it gives up.
 template <class Real>
 void ExplicitMpm<Real>::gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const {
-  for (Real& kept : g.kept) kept = 0;
-  if (g.bulk > 1 - Real(1e-5)) return;  // all of C is known; float sums of weights end here
-  for (int r = 0; r < 3; ++r) g.kept[r] = 1;
+  g.knows_all = g.bulk > 1 - Real(1e-5);  // float sums of weights end here
+  if (g.knows_all) return;
+  for (int r = 0; r < 6; ++r) g.kept[r] = r < 3 ? Real(1) : Real(0);
   if (!(g.bulk > 0)) return;
   const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
   const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
@@ -146,119 +112,122 @@ void ExplicitMpm<Real>::gather_kept(const Point& p, int local, const NodeTile& t
 
 /// New velocity, C and J of a point, and how far it moves [cells].
 template <class Real>
-void ExplicitMpm<Real>::update(Point& p, const Gathered& g, Real (&moved)[3]) const {
-  const Real h = static_cast<Real>(config_.spacing), dt = static_cast<Real>(step_.dt);
-  const Real c2 = static_cast<Real>(sound_speed_ * sound_speed_);
-  const Real a = step_.relax_velocity;
-  for (int r = 0; r < 3; ++r) {
-    Real own = g.bulk * p.v[r];
-    for (int c = 0; c < 3; ++c) own += h * p.C[3 * r + c] * g.bulk_moment[c];
-    const Real to_grid = g.velocity[r] - own;
-    const Real v = p.v[r] + g.change[r];
-    moved[r] = (v + to_grid) * dt / h;
-    const Real old = p.v[r];
-    p.v[r] = v + a * to_grid;
+auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
+  const Real* bulk = g.bulk_moment;
+  const Vector old = p.v;
+  const Vector own = g.bulk * old + step_.h * (bulk[0] * p.C[0] + bulk[1] * p.C[1] + bulk[2] * p.C[2]);
+  const Vector to_grid = g.velocity - own;
+  const Vector v = old + g.change;
+  Vector moved = step_.cells_per_speed * (v + to_grid);
+  p.v = with_fourth(v + step_.relax_velocity * to_grid, old[3]);
+  Vector C[3];
+  for (int c = 0; c < 3; ++c) C[c] = step_.per_h * (g.moment[c] - bulk[c] * old);
+  if (!g.knows_all) {
     // What the grid does not know of C stays as it was.
-    const Real row[3] = {p.C[3 * r], p.C[3 * r + 1], p.C[3 * r + 2]};
-    const Real kept[3] = {g.kept[0] * row[0] + g.kept[5] * row[1] + g.kept[4] * row[2],
-                          g.kept[5] * row[0] + g.kept[1] * row[1] + g.kept[3] * row[2],
-                          g.kept[4] * row[0] + g.kept[3] * row[1] + g.kept[2] * row[2]};
-    for (int c = 0; c < 3; ++c)
-      p.C[3 * r + c] = kept[c] + 4 / h * (g.moment[3 * r + c] - old * g.bulk_moment[c]);
+    const Real* kept = g.kept;
+    C[0] += kept[0] * p.C[0] + kept[5] * p.C[1] + kept[4] * p.C[2];
+    C[1] += kept[5] * p.C[0] + kept[1] * p.C[1] + kept[3] * p.C[2];
+    C[2] += kept[4] * p.C[0] + kept[3] * p.C[1] + kept[2] * p.C[2];
   }
+  for (int c = 0; c < 3; ++c) p.C[c] = with_fourth(C[c], p.C[c][3]);
 
   // J: average of the departure from the local pressure gradient, then the flow, then the density's pull.
-  Real slope[3];  // of J per cell; the pressure's acceleration is c2 grad J over the void fraction
-  Real mean = g.dilation;
-  for (int r = 0; r < 3; ++r) {
-    slope[r] = g.pressure[r] * p.void_fraction * h / (dt * c2);
-    mean -= slope[r] * g.centre[r];
-  }
-  Real e = p.dilation + step_.relax_dilation * (mean - p.dilation);
-  e += (1 + e) * dt * (p.C[0] + p.C[4] + p.C[8]);
+  // The pressure's acceleration is c2 grad J over the void fraction.
+  const Vector slope = step_.dilation_per_speed * p.void_fraction() * g.pressure;  // of J per cell
+  const Real mean = g.dilation - dot3(slope, g.centre);
+  Real e = p.dilation() + step_.relax_dilation * (mean - p.dilation());
+  e += (1 + e) * step_.dt_real * (C[0][0] + C[1][1] + C[2][2]);
   if (g.least_fill > Real(full_for_anchor)) e -= (1 + e) * step_.anchor * (g.fill - 1);
   if (g.least_fill > Real(full_for_shift)) {
-    Real s[3], length2 = 0;
-    for (int r = 0; r < 3; ++r) {
-      s[r] = -step_.shift * 4 * g.fill_moment[r];
-      length2 += s[r] * s[r];
-    }
-    const Real most = Real(largest_shift);
-    const Real cut = length2 > most * most ? most / std::sqrt(length2) : Real(1);
-    for (int r = 0; r < 3; ++r) {
-      moved[r] += cut * s[r];
-      e += cut * s[r] * slope[r];
-    }
+    Vector s = {g.fill_moment[0], g.fill_moment[1], g.fill_moment[2], 0};
+    s *= -4 * step_.shift;
+    const Real length2 = dot3(s, s), most = Real(largest_shift);
+    if (length2 > most * most) s *= most / std::sqrt(length2);
+    moved += s;
+    e += dot3(s, slope);
   }
   if (!config_.keep_tension) e = g.fill < Real(spray_fill) ? Real(0) : std::min(e, Real(0));
-  p.dilation = e;
-  p.fill = g.fill;
+  p.x[3] = e;
+  return moved;
 }
 
 template <class Real>
-void ExplicitMpm<Real>::move_block(std::size_t index, NodeTile& tile) {
-  const PointBlock& block = store_.blocks()[index];
-  const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
+void ExplicitMpm<Real>::move_block(std::size_t index, GatherScratch& scratch) {
+  const std::int32_t* stencil = grid_.stencil(grid_.slot_of(store_.blocks()[index].block));
   BlockReport report;
-  store_.for_each(block, [&](std::uint32_t slot) {
-    Point& p = store_.points[slot];
-    std::int32_t& cell_key = store_.key[slot];
-    const int local = cell_key & 63;
-    Gathered g;
-    Real moved[3];
-    const bool near_wall = stencil[local] >= 0;
-    if (near_wall)
-      gather_near_wall(p, cell_key, stencil[local], tile, g, impulses_[index]);
-    else
-      gather(p, local, tile, g);
-    if (has_void_) p.void_fraction = gather_void_fraction(p, local, tile);
-    update(p, g, moved);
-
-    Real move = 0, speed2 = 0;
-    bool finite = true;
-    for (int r = 0; r < 3; ++r) {
-      finite = finite && std::isfinite(moved[r]);
-      move = std::max(move, std::abs(moved[r]));
-      speed2 += p.v[r] * p.v[r];
+  for (int local = 0; local < BlockLayout::nodes; ++local)
+    for (std::span<const std::uint32_t> slots = store_.of_cell(index, local); !slots.empty();) {
+      const std::size_t count = std::min<std::size_t>(slots.size(), GatherScratch::batch);
+      move_cell(slots.first(count), index, stencil[local], scratch, report);
+      slots = slots.subspan(count);
     }
-    finite = finite && std::isfinite(speed2);
-    if (!finite || move > Real(largest_move)) {
-      if (!report.stopped) report = {.stopped = true, .finite = finite, .move = move, .culprit = slot};
-      return;
-    }
-    if (speed2 > report.speed2) report.speed2 = speed2;
-    if (g.bulk > Real(0.5) && g.fill > Real(full_for_anchor) && speed2 > report.bulk_speed2) {
-      report.bulk_speed2 = speed2;
-      report.fastest_bulk = slot;
-    }
-
-    for (int r = 0; r < 3; ++r) {
-      p.before[r] = p.x[r];
-      p.x[r] = quantised(p.x[r] + moved[r]);
-    }
-    if (near_wall) stop_at_walls(p, cell_key, stencil[local], impulses_[index]);
-    settle_in_cell(p, cell_key);
-    if (cell_key == BlockLayout::none) {
-      report.left_grid = true;
-      report.culprit = slot;
-    }
-  });
   report.mass = reports_[index].mass;
   reports_[index] = report;
 }
 
+/// Moves points of one cell. Each stage is a loop of its own: what one point waits for, the next one fills.
+template <class Real>
+void ExplicitMpm<Real>::move_cell(std::span<const std::uint32_t> slots, std::size_t index,
+                                  std::int32_t stencil, GatherScratch& scratch, BlockReport& report) {
+  const std::size_t count = slots.size();
+  const int local = store_.key[slots[0]] & 63;
+  for (std::size_t n = 0; n < count; ++n) {
+    Point& p = store_.points[slots[n]];
+    Gathered& g = scratch.gathered[n];
+    if (stencil >= 0)
+      gather_near_wall(p, store_.key[slots[n]], stencil, scratch.tile, g, impulses_[index]);
+    else
+      gather(p, local, scratch.tile, g);
+    if (has_void_) p.C[2][3] = gather_void_fraction(p, local, scratch.tile);
+  }
+  for (std::size_t n = 0; n < count; ++n)
+    scratch.moved[n] = update(store_.points[slots[n]], scratch.gathered[n]);
+  for (std::size_t n = 0; n < count; ++n) {
+    const std::uint32_t slot = slots[n];
+    Point& p = store_.points[slot];
+    std::int32_t& cell_key = store_.key[slot];
+    if (!note(p, scratch.gathered[n], scratch.moved[n], slot, report)) continue;
+    Place& before = store_.before[slot];
+    before = {p.x[0], p.x[1], p.x[2]};
+    p.x = with_fourth(quantised<Real>(p.x + scratch.moved[n]), p.x[3]);
+    if (stencil >= 0) stop_at_walls(p, before, cell_key, stencil, impulses_[index]);
+    settle_in_cell(p, before, cell_key);
+    if (cell_key == BlockLayout::none) {
+      report.left_grid = true;
+      report.culprit = slot;
+    }
+  }
+}
+
+/// Keeps the block's largest speeds; false where the point must not move.
+template <class Real>
+bool ExplicitMpm<Real>::note(const Point& p, const Gathered& g, const Vector& moved, std::uint32_t slot,
+                             BlockReport& report) const {
+  const Real speed2 = dot3(p.v, p.v);
+  const Real move = std::max({std::abs(moved[0]), std::abs(moved[1]), std::abs(moved[2])});
+  const bool finite = std::isfinite(dot3(moved, moved) + speed2);
+  if (!finite || move > Real(largest_move)) {
+    if (!report.stopped) report = {.stopped = true, .finite = finite, .move = move, .culprit = slot};
+    return false;
+  }
+  if (speed2 > report.speed2) report.speed2 = speed2;
+  if (speed2 > report.bulk_speed2 && g.bulk > Real(0.5) && g.fill > Real(full_for_anchor)) {
+    report.bulk_speed2 = speed2;
+    report.fastest_bulk = slot;
+  }
+  return true;
+}
+
 /// Takes the point's nearest node as its cell.
 template <class Real>
-void ExplicitMpm<Real>::settle_in_cell(Point& p, std::int32_t& cell_key) const {
+void ExplicitMpm<Real>::settle_in_cell(Point& p, Place& before, std::int32_t& cell_key) const {
+  if (std::max({std::abs(p.x[0]), std::abs(p.x[1]), std::abs(p.x[2])}) <= Real(0.5)) return;
   Vec3i step = Vec3i::Zero();
   for (int r = 0; r < 3; ++r) {
     if (p.x[r] > Real(0.5)) step[r] = 1;
     if (p.x[r] < Real(-0.5)) step[r] = -1;
-  }
-  if (step.isZero()) return;
-  for (int r = 0; r < 3; ++r) {
     p.x[r] -= static_cast<Real>(step[r]);
-    p.before[r] -= static_cast<Real>(step[r]);
+    before[static_cast<std::size_t>(r)] -= static_cast<Real>(step[r]);
   }
   cell_key = layout_.key(layout_.cell_of(cell_key) + step);
 }

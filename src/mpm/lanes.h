@@ -1,6 +1,8 @@
 #pragma once
 /// Sixteen numbers of one grid node, handled as whole registers (one AVX-512 register in float).
 
+#include "mpm/quads.h"
+
 namespace sluice {
 
 template <class Real>
@@ -15,6 +17,14 @@ struct Lanes {
   const Real* data() const { return reinterpret_cast<const Real*>(part); }
   Real& operator[](int lane) { return data()[lane]; }
   const Real& operator[](int lane) const { return data()[lane]; }
+
+  /// Lanes 8 n .. 8 n + 7.
+  typedef Real Half __attribute__((vector_size(8 * sizeof(Real))));
+  Half& half(int n) { return reinterpret_cast<Half*>(part)[n]; }
+  const Half& half(int n) const { return reinterpret_cast<const Half*>(part)[n]; }
+  /// Lanes 4 n .. 4 n + 3.
+  Quad<Real>& quad(int n) { return reinterpret_cast<Quad<Real>*>(part)[n]; }
+  const Quad<Real>& quad(int n) const { return reinterpret_cast<const Quad<Real>*>(part)[n]; }
 
   void clear() {
     for (Register& r : part) r = Register{};

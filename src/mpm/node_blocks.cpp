@@ -48,6 +48,10 @@ void NodeBlocks<Real>::replace_active(const std::function<void(std::int32_t slot
     block_[static_cast<std::size_t>(slot)] = BlockLayout::none;
     slot = BlockLayout::none;
   }
+  std::size_t fresh = 0;
+  for (const std::int32_t block : wanted_)
+    fresh += slot_[static_cast<std::size_t>(block)] == BlockLayout::none ? 1 : 0;
+  make_room(block_.size() + fresh - std::min(fresh, free_.size()));
   for (const std::int32_t block : wanted_) {
     std::int32_t& slot = slot_[static_cast<std::size_t>(block)];
     if (slot != BlockLayout::none) continue;
@@ -70,6 +74,17 @@ void NodeBlocks<Real>::replace_active(const std::function<void(std::int32_t slot
     prepare(slot);
   }
   active_.swap(wanted_);
+}
+
+/// Room for so many slots, and an eighth more when that is needed at all, not twice as much.
+template <class Real>
+void NodeBlocks<Real>::make_room(std::size_t slots) {
+  if (slots * BlockLayout::nodes <= data_.capacity()) return;
+  const std::size_t nodes = (data_.empty() ? slots : slots + slots / 8) * BlockLayout::nodes;
+  data_.reserve(nodes);
+  open_.reserve(nodes);
+  void_.reserve(nodes);
+  stencil_.reserve(nodes);
 }
 
 template <class Real>

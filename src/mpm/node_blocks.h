@@ -69,6 +69,7 @@ class NodeBlocks {
   std::size_t memory_bytes() const;
 
  private:
+  void make_room(std::size_t slots);
   void replace_active(const std::function<void(std::int32_t slot)>& prepare);
 
   const BlockLayout* layout_;

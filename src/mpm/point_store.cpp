@@ -1,6 +1,7 @@
 #include "mpm/point_store.h"
 
 #include <algorithm>
+#include <cstring>
 
 #include "base/parallel.h"
 
@@ -13,16 +14,12 @@ constexpr std::size_t bins_per_chunk = 8;
 
 /// Neighbours that the stencil of a cell reaches, for a block of the given width.
 std::uint32_t reach_of(int local, const Vec3i& width) {
-  std::uint32_t reach = 0;
   const int c[3] = {local & 3, (local >> 2) & 3, (local >> 4) & 3};
-  int lo[3], hi[3];
-  for (int axis = 0; axis < 3; ++axis) {
-    lo[axis] = c[axis] == 0 ? -1 : 0;
-    hi[axis] = c[axis] == width[axis] - 1 ? 1 : 0;
+  std::uint32_t reach = 1;
+  for (int axis = 0, stride = 1; axis < 3; ++axis, stride *= 3) {
+    const std::uint32_t below = c[axis] == 0 ? 1 : 0, above = c[axis] == width[axis] - 1 ? 1 : 0;
+    reach *= below | 1U << stride | above << 2 * stride;  // bits of one axis never carry into another's
   }
-  for (int dz = lo[2]; dz <= hi[2]; ++dz)
-    for (int dy = lo[1]; dy <= hi[1]; ++dy)
-      for (int dx = lo[0]; dx <= hi[0]; ++dx) reach |= 1U << (dx + 1 + 3 * (dy + 1) + 9 * (dz + 1));
   return reach;
 }
 }  // namespace
@@ -32,7 +29,7 @@ PointStore<Real>::PointStore(const BlockLayout& layout)
     : layout_(&layout),
       bin_begin_{0},
       index_of_block_(static_cast<std::size_t>(layout.block_count()), BlockLayout::none) {
-  static_assert(sizeof(Point) == 24 * sizeof(Real));
+  static_assert(sizeof(Point) == 20 * sizeof(Real));
   for (int local = 0; local < 64; ++local)
     reach_of_cell_[static_cast<std::size_t>(local)] = reach_of(local, Vec3i::Constant(BlockLayout::edge));
 }
@@ -41,7 +38,16 @@ template <class Real>
 void PointStore<Real>::add(const Point& point, std::int32_t cell_key, std::uint64_t point_id,
                            double point_mass, double point_fines) {
   if (point_fines != 0 && fines.empty()) fines.assign(points.size(), 0.0);
+  if (points.size() == points.capacity()) {
+    const std::size_t room = points.size() + points.size() / 32 + 1024;  // a little more, not twice as much
+    points.reserve(room);
+    before.reserve(room);
+    key.reserve(room);
+    id.reserve(room);
+    mass.reserve(room);
+  }
   points.push_back(point);
+  before.push_back({point.x[0], point.x[1], point.x[2]});
   key.push_back(cell_key);
   id.push_back(point_id);
   mass.push_back(point_mass);
@@ -63,6 +69,7 @@ void PointStore<Real>::bin() {
     find_strays();
   }
   list_strays();
+  order_by_cell();
 }
 
 /// Fills strays_ (in storage order) and the reach of each bin's residents.
@@ -129,63 +136,91 @@ void PointStore<Real>::list_strays() {
     next += b.stray_end;
     b.stray_end = b.stray_begin;
   }
-  place_.resize(strays_.size());
+  stray_place_.resize(strays_.size());
   for (const std::uint32_t slot : strays_)
-    place_[blocks_[static_cast<std::size_t>(index_of_block(key[slot] >> 6))].stray_end++] = slot;
-  strays_.swap(place_);
+    stray_place_[blocks_[static_cast<std::size_t>(index_of_block(key[slot] >> 6))].stray_end++] = slot;
+  strays_.swap(stray_place_);
+}
+
+/// Writes order_: block by block, within a block by cell, and in the former order within a cell.
+template <class Real>
+void PointStore<Real>::order_by_cell() {
+  const std::size_t blocks = blocks_.size();
+  cell_begin_.resize(blocks);
+  parallel_for(
+      blocks,
+      [&](std::size_t b) {
+        auto& begin = cell_begin_[b];
+        begin.fill(0);
+        for_each(blocks_[b],
+                 [&](std::uint32_t slot) { ++begin[static_cast<std::size_t>(key[slot] & 63) + 1]; });
+        for (std::size_t c = 0; c < BlockLayout::nodes; ++c) begin[c + 1] += begin[c];
+      },
+      bins_per_chunk);
+  std::uint32_t all = 0;
+  for (auto& begin : cell_begin_) {
+    const std::uint32_t count = begin.back();
+    for (std::uint32_t& c : begin) c += all;
+    all += count;
+  }
+  if (order_.size() < all) order_.resize(points.capacity());
+  parallel_for(
+      blocks,
+      [&](std::size_t b) {
+        auto next = cell_begin_[b];
+        for_each(blocks_[b], [&](std::uint32_t slot) {
+          order_[next[static_cast<std::size_t>(key[slot] & 63)]++] = slot;
+        });
+      },
+      bins_per_chunk);
 }
 
 template <class Real>
 void PointStore<Real>::sort() {
-  // Blocks in ascending order, each with its residents and strays counted.
+  // Blocks in ascending order.
   list_strays();
-  std::vector<PointBlock> sorted = blocks_;
-  std::sort(sorted.begin(), sorted.end(),
+  std::sort(blocks_.begin(), blocks_.end(),
             [](const PointBlock& a, const PointBlock& b) { return a.block < b.block; });
-  std::vector<std::uint32_t> live(sorted.size());
-  parallel_for(
-      sorted.size(),
-      [&](std::size_t b) {
-        std::uint32_t n = sorted[b].stray_end - sorted[b].stray_begin;
-        for (std::uint32_t slot = sorted[b].begin; slot < sorted[b].end; ++slot)
-          n += resident(slot, sorted[b].block) ? 1 : 0;
-        live[b] = n;
-      },
-      bins_per_chunk);
-  std::vector<std::uint32_t> begin(sorted.size() + 1, 0);
-  for (std::size_t b = 0; b < sorted.size(); ++b) begin[b + 1] = begin[b] + live[b];
+  order_by_cell();
+  bin_block_.resize(blocks_.size());
+  bin_begin_.assign(1, 0);
+  for (std::size_t b = 0; b < blocks_.size(); ++b) {
+    bin_block_[b] = blocks_[b].block;
+    bin_begin_.push_back(cell_begin_[b].back());
+  }
 
-  // Within a block: by cell, and in the former order within a cell.
-  place_.resize(begin.back());
-  parallel_for(
-      sorted.size(),
-      [&](std::size_t b) {
-        std::array<std::uint32_t, 65> next{};
-        for_each(sorted[b],
-                 [&](std::uint32_t slot) { ++next[static_cast<std::size_t>(key[slot] & 63) + 1]; });
-        next[0] = begin[b];
-        for (std::size_t c = 0; c < 64; ++c) next[c + 1] += next[c];
-        for_each(sorted[b], [&](std::uint32_t slot) {
-          place_[next[static_cast<std::size_t>(key[slot] & 63)]++] = slot;
-        });
-      },
-      bins_per_chunk);
-
-  const auto reorder = [&](auto& column, auto& spare) {
-    spare.resize(place_.size());
-    parallel_for(
-        place_.size(), [&](std::size_t n) { spare[n] = column[place_[n]]; }, 4096);
-    column.swap(spare);
+  // A step begins: what `before` held is history, so its memory lends itself, a piece of a column at a time.
+  const std::size_t count = bin_begin_.back();
+  const auto reorder = [&]<class T>(std::vector<T>& column) {
+    constexpr std::size_t piece = sizeof(Place);
+    const auto move_piece = [&](std::size_t offset, auto length) {
+      char* data = reinterpret_cast<char*>(column.data()) + offset;
+      parallel_for(
+          count,
+          [&](std::size_t n) { std::memcpy(before[n].data(), data + sizeof(T) * order_[n], length()); },
+          4096);
+      parallel_for(
+          count, [&](std::size_t n) { std::memcpy(data + sizeof(T) * n, before[n].data(), length()); }, 4096);
+    };
+    for (std::size_t offset = 0; offset + piece <= sizeof(T); offset += piece)
+      move_piece(offset, std::integral_constant<std::size_t, piece>());
+    if constexpr (sizeof(T) % piece != 0)
+      move_piece(sizeof(T) / piece * piece, std::integral_constant<std::size_t, sizeof(T) % piece>());
+    column.resize(count);
   };
-  reorder(points, spare_points_);
-  reorder(key, spare_key_);
-  reorder(id, spare_id_);
-  reorder(mass, spare_column_);
-  if (!fines.empty()) reorder(fines, spare_column_);
+  reorder(points);
+  reorder(key);
+  reorder(id);
+  reorder(mass);
+  if (!fines.empty()) reorder(fines);
+  before.resize(count);
+  parallel_for(
+      count,
+      [&](std::size_t n) {
+        before[n] = {points[n].x[0], points[n].x[1], points[n].x[2]};
+      },
+      4096);
   dead_ = 0;
-  bin_block_.resize(sorted.size());
-  for (std::size_t b = 0; b < sorted.size(); ++b) bin_block_[b] = sorted[b].block;
-  bin_begin_ = std::move(begin);
 }
 
 template <class Real>
@@ -193,14 +228,15 @@ std::size_t PointStore<Real>::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t strays = 0;
   for (const auto& list : strays_of_bin_) strays += bytes(list);
-  return bytes(points) + bytes(key) + bytes(id) + bytes(mass) + bytes(fines) + bytes(spare_points_) +
-         bytes(spare_key_) + bytes(spare_id_) + bytes(spare_column_) + bytes(strays_) + bytes(place_) +
-         strays + bytes(blocks_) + bytes(index_of_block_) + bytes(bin_block_) + bytes(bin_begin_);
+  return bytes(points) + bytes(before) + bytes(key) + bytes(id) + bytes(mass) + bytes(fines) +
+         bytes(strays_) + bytes(stray_place_) + bytes(order_) + bytes(cell_begin_) + strays + bytes(blocks_) +
+         bytes(index_of_block_) + bytes(bin_block_) + bytes(bin_begin_) + bytes(reach_of_bin_);
 }
 
 template <class Real>
 void PointStore<Real>::exchange(StateArchive& archive) {
   archive.values("points", points);
+  archive.values("before", before);
   archive.values("key", key);
   archive.values("id", id);
   archive.values("mass", mass);

@@ -11,22 +11,24 @@
 
 #include "base/state_archive.h"
 #include "mpm/block_layout.h"
+#include "mpm/quads.h"
 
 namespace sluice {
 
-/// What a step reads and writes of one point.
+/// What a step reads and writes of one point. The fourth numbers of the quads hold what else belongs to it.
 template <class Real>
 struct MaterialPoint {
-  Real x[3];           ///< from the nearest node [cells], -0.5..0.5, a multiple of the position quantum
-  Real before[3];      ///< same, at the start of the last step, from the nearest node of now [cells]
-  Real v[3];           ///< [m/s]
-  Real dilation;       ///< J - 1: keeps its digits where J is nearly 1
-  Real C[9];           ///< affine velocity, row-major: C[3 r + c] = d v_r / d x_c [1/s]
-  Real mass;           ///< [kg]
-  Real volume;         ///< at rest [m3]
-  Real viscosity;      ///< [Pa s]
-  Real void_fraction;  ///< of the mixture around it, 1 without rocks
-  Real fill;           ///< water per space open to it, at the last step
+  Quad<Real> x{};     ///< from the nearest node [cells], -0.5..0.5, multiples of the position quantum; J - 1
+  Quad<Real> v{};     ///< [m/s]; mass [kg]
+  Quad<Real> C[3]{};  ///< affine velocity by columns: C[c][r] = d v_r / d x_c [1/s]; volume, viscosity, void
+
+  /// J - 1: keeps its digits where J is nearly 1.
+  Real dilation() const { return x[3]; }
+  Real mass() const { return v[3]; }          ///< [kg]
+  Real volume() const { return C[0][3]; }     ///< at rest [m3]
+  Real viscosity() const { return C[1][3]; }  ///< [Pa s]
+  /// Of the mixture around it, 1 without rocks.
+  Real void_fraction() const { return C[2][3]; }
 };
 
 /// Rounds a position to the quantum, a multiple of 2^-22 cells in float: changing cells is then exact.
@@ -35,11 +37,15 @@ template <class Real>
 Real quantised(Real x) {
   return (x + Real(3)) - Real(3);
 }
+template <class Real>
+Quad<Real> quantised(Quad<Real> x) {
+  return (x + Real(3)) - Real(3);
+}
 
 template <class Real>
 struct StateTraits<MaterialPoint<Real>> {
   static constexpr Scalar scalar = StateTraits<Real>::scalar;
-  static constexpr std::size_t count = 24;
+  static constexpr std::size_t count = 20;
 };
 
 /// A block with points: residents [begin, end) of the store, then strays [stray_begin, stray_end) of the
@@ -56,6 +62,7 @@ template <class Real>
 class PointStore {
  public:
   using Point = MaterialPoint<Real>;
+  using Place = std::array<Real, 3>;
 
   explicit PointStore(const BlockLayout& layout);
 
@@ -67,17 +74,41 @@ class PointStore {
            double fines);
   void remove(std::size_t slot);
 
-  /// Finds the blocks that have points, sorting first when too many points are strays.
+  /// Finds the blocks that have points, and those of each cell; sorts first when too many are strays.
   void bin();
   const std::vector<PointBlock>& blocks() const { return blocks_; }
-  /// Slot of the n-th point of a block: residents (check `resident`), then strays.
-  std::uint32_t stray(std::uint32_t n) const { return strays_[n]; }
-  bool resident(std::uint32_t slot, std::int32_t block) const { return key[slot] >> 6 == block; }
   /// Index into blocks() or `none`.
   std::int32_t index_of_block(std::int32_t block) const {
     return index_of_block_[static_cast<std::size_t>(block)];
   }
 
+  /// Slots of the points of a block, by index in blocks(), that lie in one of its cells; in the fixed order.
+  std::span<const std::uint32_t> of_cell(std::size_t block, int local) const {
+    const auto& begin = cell_begin_[block];
+    const auto c = static_cast<std::size_t>(local);
+    return {order_.data() + begin[c], begin[c + 1] - begin[c]};
+  }
+  /// All of them, cell by cell.
+  std::span<const std::uint32_t> of_block(std::size_t block) const {
+    const auto& begin = cell_begin_[block];
+    return {order_.data() + begin.front(), begin.back() - begin.front()};
+  }
+
+  std::size_t memory_bytes() const;
+  void exchange(StateArchive& archive);
+
+  std::vector<Point> points;
+  std::vector<Place> before;      ///< at the start of the last step, from the nearest node of now [cells]
+  std::vector<std::int32_t> key;  ///< cell, `none` for a removed point
+  std::vector<std::uint64_t> id;
+  std::vector<double> mass;   ///< as it came in [kg]
+  std::vector<double> fines;  ///< as it came in [kg]; empty while all are 0
+
+ private:
+  void find_strays();
+  void list_strays();
+  void order_by_cell();
+  void sort();
   /// Calls body(slot) for each point of a block, in the fixed order.
   template <class Body>
   void for_each(const PointBlock& block, const Body& body) const {
@@ -90,20 +121,6 @@ class PointStore {
     }
   }
 
-  std::size_t memory_bytes() const;
-  void exchange(StateArchive& archive);
-
-  std::vector<Point> points;
-  std::vector<std::int32_t> key;  ///< cell, `none` for a removed point
-  std::vector<std::uint64_t> id;
-  std::vector<double> mass;   ///< as it came in [kg]
-  std::vector<double> fines;  ///< as it came in [kg]; empty while all are 0
-
- private:
-  void find_strays();
-  void list_strays();
-  void sort();
-
   const BlockLayout* layout_;
   std::vector<std::int32_t> bin_block_;   ///< sorted: block of each bin
   std::vector<std::uint32_t> bin_begin_;  ///< #bins + 1; what lies beyond the last is unsorted
@@ -115,12 +132,10 @@ class PointStore {
   std::vector<std::uint32_t> strays_;
   std::vector<std::vector<std::uint32_t>> strays_of_bin_;
   std::vector<std::uint32_t> reach_of_bin_;
-  std::vector<std::uint32_t> place_;
-  std::vector<Point> spare_points_;
-  std::vector<std::int32_t> spare_key_;
-  std::vector<std::uint64_t> spare_id_;
-  std::vector<double> spare_column_;
-  std::array<std::uint32_t, 64> reach_of_cell_{};  ///< for blocks of full width
+  std::vector<std::uint32_t> stray_place_;
+  std::vector<std::uint32_t> order_;                                           ///< slots by block and cell
+  std::vector<std::array<std::uint32_t, BlockLayout::nodes + 1>> cell_begin_;  ///< in order_, per block
+  std::array<std::uint32_t, 64> reach_of_cell_{};                              ///< for blocks of full width
 };
 
 }  // namespace sluice

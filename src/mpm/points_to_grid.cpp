@@ -15,7 +15,7 @@ constexpr double least_node_mass = 1e-30;
 template <class Real>
 void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   step_.t = t;
-  step_.dt = dt;
+  share_step(dt);
   const double h = config_.spacing;
   const double g = gravity_.norm();
   // Time constants in the grid's acoustic time h/c, and of the anchor in the wave time of the depth: where
@@ -31,29 +31,51 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   store_.bin();
   grid_.activate(store_.blocks(), [&](std::int32_t slot) { prepare_block(slot); });
   const std::size_t blocks = store_.blocks().size();
-  tiles_.resize(blocks * BlockLayout::tile_nodes);
+  colour_blocks();
   if (impulses_.size() < std::max(blocks, grid_.active().size()))
     impulses_.resize(std::max(blocks, grid_.active().size()));
   reports_.resize(blocks);
+  const std::vector<std::int32_t>& active = grid_.active();
   parallel_for(
-      blocks, [&](std::size_t b) { scatter_block(b); }, 1);
+      active.size(),
+      [&](std::size_t b) {
+        Node* nodes = grid_.nodes(grid_.slot_of(active[b]));
+        for (int n = 0; n < BlockLayout::nodes; ++n) nodes[n].clear();
+      },
+      16);
+  for (const std::vector<std::uint32_t>& colour : colours_)
+    parallel_chunks_with(scatter_scratch_, colour.size(), 1,
+                         [&](ScatterScratch& scratch, std::size_t, std::size_t n, std::size_t) {
+                           scatter_block(colour[n], scratch);
+                         });
   if (field_) pour_loads(blocks);
   double mass = 0;
   for (const BlockReport& r : reports_) mass += r.mass;
   gravity_impulse_ += mass * dt * gravity_;
 
-  const std::vector<std::int32_t>& active = grid_.active();
   node_begin_.assign(active.size() + 1, 0);
   parallel_for(
       active.size(),
       [&](std::size_t b) {
         const std::int32_t slot = grid_.slot_of(active[b]);
-        add_up_tiles(slot);
         node_begin_[b + 1] = finish_nodes(slot);
       },
       4);
   for (std::size_t b = 0; b < active.size(); ++b) node_begin_[b + 1] += node_begin_[b];
   impulse_.clear();
+}
+
+template <class Real>
+void ExplicitMpm<Real>::share_step(double dt) {
+  const double h = config_.spacing, c2 = sound_speed_ * sound_speed_;
+  step_.dt = dt;
+  step_.dt_real = static_cast<Real>(dt);
+  step_.h = static_cast<Real>(h);
+  step_.per_h = static_cast<Real>(4 / h);
+  step_.c2 = static_cast<Real>(c2);
+  step_.stress = static_cast<Real>(4 / h * dt);
+  step_.cells_per_speed = static_cast<Real>(dt / h);
+  step_.dilation_per_speed = static_cast<Real>(h / (dt * c2));
 }
 
 template <class Real>
@@ -79,98 +101,129 @@ void ExplicitMpm<Real>::pour_loads(std::size_t lists) {
   }
 }
 
-/// Writes the lanes of a point's contribution: w (constant + sum slope_c d_c), d in cells.
+/// At a node whose distance is d cells, a point gives w times its momentum m (v + C h d), its stress, and so
+/// on.
 template <class Real>
-void ExplicitMpm<Real>::contribution(const Point& p, Node (&a)[4]) const {
-  for (Node& lanes : a) lanes.clear();
-  const Real h = static_cast<Real>(config_.spacing);
-  const Real strength = static_cast<Real>(4.0 / config_.spacing * step_.dt);
-  const Real volume = p.volume * (1 + p.dilation) / p.void_fraction;
-  const Real c2 = static_cast<Real>(sound_speed_ * sound_speed_);
+void ExplicitMpm<Real>::contribute(const Point& p, Contribution& a) const {
+  const Real m = p.mass(), e = p.dilation(), per_void = has_void_ ? 1 / p.void_fraction() : Real(1);
+  const Real now = p.volume() * (1 + e), volume = now * per_void;
+  const Vector C[3] = {with_fourth(p.C[0], Real(0)), with_fourth(p.C[1], Real(0)),
+                       with_fourth(p.C[2], Real(0))};
+  const Real drag = step_.stress * volume * p.viscosity();
   // V p = -m c2 (J - 1): the volume cancels in p = (m / V0) c2 (1/J - 1).
-  const Real push = -strength * p.mass * c2 * p.dilation / p.void_fraction;
-  const Real drag = strength * volume * p.viscosity;
-  const Real third = (p.C[0] + p.C[4] + p.C[8]) * Real(2.0 / 3.0);
-  for (int r = 0; r < 3; ++r) {
-    a[0][node_lane::velocity + r] = p.mass * p.v[r];
-    for (int c = 0; c < 3; ++c) {
-      a[1 + c][node_lane::velocity + r] = p.mass * h * p.C[3 * r + c];
-      a[1 + c][node_lane::change + r] = -drag * (p.C[3 * r + c] + p.C[3 * c + r]);
-    }
-    a[1 + r][node_lane::change + r] += push + drag * third;
-    a[1 + r][node_lane::centre + r] = -p.mass;
-    a[1 + r][node_lane::gradient + r] = static_cast<Real>(4.0 / config_.spacing) * volume;
+  const Real push =
+      -step_.stress * m * step_.c2 * e * per_void + drag * (C[0][0] + C[1][1] + C[2][2]) * Real(2.0 / 3.0);
+
+  Vector momentum = m * p.v, impulse{};
+  for (int c = 0; c < 3; ++c) {
+    const Vector row = {C[0][c], C[1][c], C[2][c], 0};
+    Vector unit{};
+    unit[c] = 1;
+    const Vector spin = m * step_.h * C[c], stress = push * unit - drag * (C[c] + row);
+    momentum -= p.x[c] * spin;
+    impulse -= p.x[c] * stress;
+    a.slope[c].quad(0) = spin;
+    a.slope[c].quad(1) = stress;
+    a.slope[c].quad(2) = -m * unit;
+    a.slope[c].quad(3) = step_.per_h * volume * unit;
   }
-  a[0][node_lane::mass] = p.mass;
-  a[0][node_lane::fill] = p.volume * (1 + p.dilation);
-  a[0][node_lane::dilation] = p.mass * p.dilation;
+  a.middle.quad(0) = with_fourth(momentum, m);
+  a.middle.quad(1) = with_fourth(impulse, now);
+  a.middle.quad(2) = m * p.x;
+  a.middle.quad(3) = with_fourth(-step_.per_h * volume * p.x, Real(0));
+
+  const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
+  const Vector along = {x.w[0], x.w[1], x.w[2], 0};
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j) a.weight[j + 3 * k] = y.w[j] * z.w[k] * along;
 }
 
 template <class Real>
-void ExplicitMpm<Real>::scatter_block(std::size_t index) {
+void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch) {
   const PointBlock& block = store_.blocks()[index];
-  Node* tile = &tiles_[index * BlockLayout::tile_nodes];
+  Node* tile = scratch.tile;
   for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile[n].clear();
   const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
   double mass = 0;
-  store_.for_each(block, [&](std::uint32_t slot) {
-    const Point& p = store_.points[slot];
-    const int local = store_.key[slot] & 63;
-    mass += static_cast<double>(p.mass);
-    Node a[4];
-    contribution(p, a);
-    if (stencil[local] >= 0) {
-      scatter_near_wall(p, store_.key[slot], stencil[local], a, tile, impulses_[index]);
-      return;
-    }
+  for (int local = 0; local < BlockLayout::nodes; ++local) {
     Node* corner = tile + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
-    const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
-    Node along[3];
-    for (int i = 0; i < 3; ++i) along[i].set_sum(a[0], x.d[i], a[1]);
-    for (int k = 0; k < 3; ++k)
-      for (int j = 0; j < 3; ++j) {
-        Node cross;
-        const Real w = y.w[j] * z.w[k];
-        for (int r = 0; r < Node::registers; ++r)
-          cross.part[r] = y.d[j] * a[2].part[r] + z.d[k] * a[3].part[r];
-        Node* row = corner + 6 * j + 36 * k;
-        for (int i = 0; i < 3; ++i) {
-          const Real wi = w * x.w[i];
-          for (int r = 0; r < Node::registers; ++r) row[i].part[r] += wi * (along[i].part[r] + cross.part[r]);
-        }
+    for (std::span<const std::uint32_t> slots = store_.of_cell(index, local); !slots.empty();) {
+      const std::size_t count = std::min<std::size_t>(slots.size(), ScatterScratch::batch);
+      for (std::size_t n = 0; n < count; ++n) {
+        const Point& p = store_.points[slots[n]];
+        mass += static_cast<double>(p.mass());
+        contribute(p, scratch.point[n]);
+        if (stencil[local] >= 0)
+          hide_nodes(p, store_.key[slots[n]], stencil[local], scratch.point[n], impulses_[index]);
       }
-  });
+      scatter({scratch.point, count}, corner);
+      slots = slots.subspan(count);
+    }
+  }
   reports_[index].mass = mass;
+  add_tile(block, tile);
 }
 
-/// Sums the tiles that reach a node block, neighbour by neighbour in a fixed order.
+/// Adds points of one cell: nodes stay in registers, nine at a time, while the points pass.
 template <class Real>
-void ExplicitMpm<Real>::add_up_tiles(std::int32_t slot) {
-  Node* nodes = grid_.nodes(slot);
-  for (int n = 0; n < BlockLayout::nodes; ++n) nodes[n].clear();
-  const Vec3i place = layout_.block_place(grid_.block_of(slot));
-  const Vec3i width = layout_.width(place);
-  for (int bit = 0; bit < 27; ++bit) {
-    const int step[3] = {bit % 3 - 1, bit / 3 % 3 - 1, bit / 9 - 1};
-    const std::int32_t from = layout_.neighbour(place, step[0], step[1], step[2]);
-    if (from == BlockLayout::none) continue;
-    const std::int32_t index = store_.index_of_block(from);
-    if (index == BlockLayout::none) continue;
-    // The neighbour reaches this block where its own mask has the opposite direction.
-    if (!(store_.blocks()[static_cast<std::size_t>(index)].reach >> (26 - bit) & 1)) continue;
-    const Node* tile = &tiles_[static_cast<std::size_t>(index) * BlockLayout::tile_nodes];
-    const Vec3i from_width = layout_.width(layout_.block_place(from));
-    int lo[3], hi[3], shift[3];
-    for (int axis = 0; axis < 3; ++axis) {
-      lo[axis] = step[axis] > 0 ? width[axis] - 1 : 0;
-      hi[axis] = step[axis] < 0 ? 1 : width[axis];
-      shift[axis] = step[axis] < 0 ? from_width[axis] + 1 : step[axis] > 0 ? -lo[axis] : 1;
+void ExplicitMpm<Real>::scatter(std::span<const Contribution> points, Node* corner) const {
+  for (int r = 0; r < Node::registers; ++r)
+    for (int k = 0; k < 3; ++k) {
+      typename Node::Register sum[9];
+      for (int n = 0; n < 9; ++n) sum[n] = corner[n % 3 + 6 * (n / 3) + 36 * k].part[r];
+      const Real layer = static_cast<Real>(k - 1);
+      for (const Contribution& a : points) {
+        const auto ax = a.slope[0].part[r], ay = a.slope[1].part[r];
+        const auto row1 = a.middle.part[r] + layer * a.slope[2].part[r];
+        const auto row0 = row1 - ay, row2 = row1 + ay;
+        const Real* w = reinterpret_cast<const Real*>(a.weight + 3 * k);
+        sum[0] += w[0] * (row0 - ax);
+        sum[1] += w[1] * row0;
+        sum[2] += w[2] * (row0 + ax);
+        sum[3] += w[4] * (row1 - ax);
+        sum[4] += w[5] * row1;
+        sum[5] += w[6] * (row1 + ax);
+        sum[6] += w[8] * (row2 - ax);
+        sum[7] += w[9] * row2;
+        sum[8] += w[10] * (row2 + ax);
+      }
+      for (int n = 0; n < 9; ++n) corner[n % 3 + 6 * (n / 3) + 36 * k].part[r] = sum[n];
     }
-    for (int k = lo[2]; k < hi[2]; ++k)
-      for (int j = lo[1]; j < hi[1]; ++j)
-        for (int i = lo[0]; i < hi[0]; ++i)
-          nodes[i + 4 * j + 16 * k].add(tile[i + shift[0] + 6 * (j + shift[1]) + 36 * (k + shift[2])]);
+}
+
+template <class Real>
+void ExplicitMpm<Real>::add_tile(const PointBlock& block, const Node* tile) {
+  visit_tile(block, [&](std::int32_t slot, int to, int from, int length) {
+    Node* nodes = grid_.nodes(slot);
+    for (int n = 0; n < length; ++n) nodes[to + n].add(tile[from + n]);
+  });
+}
+
+/// Blocks of one colour write to no common node: along each axis they are two apart, also through a periodic
+/// face, and where the last block is but one node wide, those on both sides of it differ, too.
+template <class Real>
+int ExplicitMpm<Real>::colour_of(const Vec3i& place) const {
+  int colour = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const int blocks = layout_.blocks()[axis], last = blocks - 1;
+    int own = place[axis] & 1;
+    if (domain_.periodic(axis)) {
+      if (place[axis] == last && last % 2 == 0) own = 2;
+      if (place[axis] == last - 1 && layout_.width(axis, last) == 1) own = 3;
+    }
+    colour = 4 * colour + own;
   }
+  return colour;
+}
+
+template <class Real>
+void ExplicitMpm<Real>::colour_blocks() {
+  colours_.resize(64);
+  for (std::vector<std::uint32_t>& colour : colours_) colour.clear();
+  const std::vector<PointBlock>& blocks = store_.blocks();
+  for (std::size_t b = 0; b < blocks.size(); ++b)
+    colours_[static_cast<std::size_t>(colour_of(layout_.block_place(blocks[b].block)))].push_back(
+        static_cast<std::uint32_t>(b));
 }
 
 /// Turns a block's sums into velocities and means; returns how many of its nodes carry mass.
@@ -202,9 +255,11 @@ std::uint32_t ExplicitMpm<Real>::finish_nodes(std::int32_t slot) {
 }
 
 template void ExplicitMpm<float>::points_to_grid(double, double);
+template void ExplicitMpm<float>::share_step(double);
 template void ExplicitMpm<float>::prepare_block(std::int32_t);
 template void ExplicitMpm<float>::pour_loads(std::size_t);
 template void ExplicitMpm<double>::points_to_grid(double, double);
+template void ExplicitMpm<double>::share_step(double);
 template void ExplicitMpm<double>::prepare_block(std::int32_t);
 template void ExplicitMpm<double>::pour_loads(std::size_t);
 

@@ -103,6 +103,7 @@ void WallField::Implementation::set_up_nodes() {
     }
   });
   for (const auto& part : found) planes.insert(planes.end(), part.begin(), part.end());
+  planes.shrink_to_fit();
   std::int32_t first = 0;
   for (NodeRecord& n : nodes) {
     n.planes = first;

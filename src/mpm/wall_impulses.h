@@ -12,10 +12,12 @@ class WallImpulses {
   void clear() { entries_.clear(); }
 
   /// @param impulse  on the wall [N s], at the point `at` [m]
-  void add(int wall, const Vec3& impulse, const Vec3& at) {
+  void add(int wall, const Vec3& impulse, const Vec3& at) { add_turning(wall, impulse, at.cross(impulse)); }
+  /// @param angular_impulse  about the origin [N m s]
+  void add_turning(int wall, const Vec3& impulse, const Vec3& angular_impulse) {
     WallLoad& load = of(wall);
     load.impulse += impulse;
-    load.angular_impulse += at.cross(impulse);
+    load.angular_impulse += angular_impulse;
   }
   void add_impact(int wall, double energy) { of(wall).impact_energy += energy; }
   void add_sliding(int wall, double energy) { of(wall).sliding_energy += energy; }

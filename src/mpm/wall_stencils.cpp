@@ -232,6 +232,11 @@ void WallStencils::classify_all(const WallPatches& walls) {
       }
     }
   }
+  records.shrink_to_fit();  // they stay as they are
+  patches.shrink_to_fit();
+  triangles.shrink_to_fit();
+  edges.shrink_to_fit();
+  cell_.shrink_to_fit();
 }
 
 void WallStencils::classify(const WallPatches& walls, StencilRecord& r, std::vector<Vec3>& found_edges) {

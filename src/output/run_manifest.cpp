@@ -1,6 +1,7 @@
 #include "output/run_manifest.h"
 
 #include <cmath>
+#include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -114,6 +115,20 @@ void fields(V& v, RunManifest::Rates& r) {
   v("rock_steps_per_s", r.rock_steps_per_s);
 }
 template <class V>
+void fields(V& v, RunManifest::Figure& f) {  // the name is the key in `figures`
+  v("value", f.value);
+  v("low95", f.low95);
+  v("high95", f.high95);
+}
+template <class V>
+void fields(V& v, RunManifest::ExitAverages& a) {
+  v("from_s", a.from_s);
+  v("to_s", a.to_s);
+  v("steady", a.steady);
+  v("reason", a.reason);
+  v("figures", a.figures);
+}
+template <class V>
 void fields(V& v, RunManifest::ExitSummary& e) {  // the name is the key in `exits`
   v("rock_kg_s", e.rock_kg_s);
   v("water_kg_s", e.water_kg_s);
@@ -127,6 +142,7 @@ void fields(V& v, RunManifest::ExitSummary& e) {  // the name is the key in `exi
   v("rock_size_p80_m", e.rock_size_p80_m);
   v("rock_kg", e.rock_kg);
   v("water_kg", e.water_kg);
+  v("averages", e.averages);
 }
 template <class V>
 void fields(V& v, RunManifest& m) {
@@ -171,6 +187,7 @@ class Writer {
  private:
   static Json convert(double x) { return std::isfinite(x) ? Json(x) : Json(nullptr); }
   static Json convert(int x) { return x; }
+  static Json convert(bool x) { return x; }
   static Json convert(std::int64_t x) { return x; }
   static Json convert(const std::string& x) { return x; }
   static Json convert(Outcome x) {
@@ -190,6 +207,11 @@ class Writer {
   static Json convert(std::vector<RunManifest::ExitSummary>& exits) {
     Json object = Json::object();
     for (auto& e : exits) object[e.name] = convert(e);
+    return object;
+  }
+  static Json convert(std::vector<RunManifest::Figure>& figures) {
+    Json object = Json::object();
+    for (auto& f : figures) object[f.name] = convert(f);
     return object;
   }
   static Json convert(std::vector<RunManifest::StageTime>& stages) {
@@ -234,6 +256,7 @@ class Reader {
  private:
   static void read(const Json& j, double& x) { x = j.is_null() ? std::nan("") : j.get<double>(); }
   static void read(const Json& j, int& x) { x = j.get<int>(); }
+  static void read(const Json& j, bool& x) { x = j.get<bool>(); }
   static void read(const Json& j, std::int64_t& x) { x = j.get<std::int64_t>(); }
   static void read(const Json& j, std::string& x) { x = j.get<std::string>(); }
   static void read(const Json& j, Outcome& x) {
@@ -251,6 +274,13 @@ class Reader {
     for (const auto& [name, exit] : j.items()) {
       exits.emplace_back().name = name;
       read(exit, exits.back());
+    }
+  }
+  static void read(const Json& j, std::vector<RunManifest::Figure>& figures) {
+    for (const auto& [name, figure] : j.items()) {
+      constexpr double unknown = std::numeric_limits<double>::quiet_NaN();  // null in the file
+      figures.push_back({name, unknown, unknown, unknown});
+      read(figure, figures.back());
     }
   }
   static void read(const Json& j, std::vector<RunManifest::StageTime>& stages) {

@@ -58,7 +58,7 @@ struct RunManifest {
     std::int64_t steps = 0;
     std::optional<double> dt_fluid_s, dt_rock_s;          ///< last values
     std::optional<std::int64_t> rock_steps, fluid_steps;  ///< counts
-    std::optional<double> planned_s;                      ///< end asked for
+    std::optional<double> planned_s;                      ///< end asked for, by `--until` where given
     std::string rock_step_governed_by, fluid_step_governed_by;
   } time;
 
@@ -98,6 +98,20 @@ struct RunManifest {
     std::optional<double> water_point_steps_per_s, rock_steps_per_s;
   } rates;
 
+  /// A figure of an exit with its 95 % limits; NaN where not known.
+  struct Figure {
+    std::string name;
+    double value = 0, low95 = 0, high95 = 0;
+  };
+  /// Averages over [from_s, to_s]: after steady state where it is reached, else over the second half of the
+  /// run, and then `reason` says why nobody may rely on them.
+  struct ExitAverages {
+    double from_s = 0, to_s = 0;
+    bool steady = false;
+    std::string reason;           ///< empty where steady
+    std::vector<Figure> figures;  ///< of what the scene has
+  };
+
   /// Averages after steady state; absent with a reason in `warnings` where it is not reached.
   struct ExitSummary {
     std::string name;
@@ -106,6 +120,7 @@ struct RunManifest {
     // more than pipelines are promised; null where unknown
     std::optional<double> rock_cov_corrected;  ///< shot noise taken out
     std::optional<double> water_m3_per_t, dry_rock_fraction, rock_size_p80_m, rock_kg, water_kg;
+    std::optional<ExitAverages> averages;
   };
   std::vector<ExitSummary> exits;
 

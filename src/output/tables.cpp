@@ -1,56 +1,60 @@
 #include "output/tables.h"
 
+#include <array>
+
 namespace sluice {
+
+namespace {
+
+/// Where a column's limits stand: columns are added at the end, never moved.
+enum class Limits { beside, at_the_end };
+struct ExitColumn {
+  const char* name;
+  TableEstimate ExitBinRow::*value;
+  Limits limits;
+};
+constexpr std::array<ExitColumn, 11> exit_columns = {{
+    {"rock_kg_s", &ExitBinRow::rock_kg_s, Limits::beside},
+    {"water_kg_s", &ExitBinRow::water_kg_s, Limits::beside},
+    {"fines_kg_s", &ExitBinRow::fines_kg_s, Limits::at_the_end},
+    {"water_m3_per_t", &ExitBinRow::water_m3_per_t, Limits::beside},
+    {"rock_speed_m_s", &ExitBinRow::rock_speed_m_s, Limits::at_the_end},
+    {"water_speed_m_s", &ExitBinRow::water_speed_m_s, Limits::at_the_end},
+    {"rock_size_mean_m", &ExitBinRow::rock_size_mean_m, Limits::at_the_end},
+    {"rock_size_p80_m", &ExitBinRow::rock_size_p80_m, Limits::at_the_end},
+    {"rock_energy_W", &ExitBinRow::rock_energy_W, Limits::at_the_end},
+    {"dry_rock_kg_s", &ExitBinRow::dry_rock_kg_s, Limits::at_the_end},
+    {"rock_residence_s", &ExitBinRow::rock_residence_s, Limits::at_the_end},
+}};
+
+void add_limit_columns(CsvTable& table, const std::string& name) {
+  table.columns.push_back(name + "_low95");
+  table.columns.push_back(name + "_high95");
+}
+
+}  // namespace
 
 CsvTable exit_table(const std::vector<ExitBinRow>& rows) {
   CsvTable table;
-  table.columns = {"exit",
-                   "bin",
-                   "from_m",
-                   "to_m",
-                   "from_s",
-                   "to_s",
-                   "rock_kg_s",
-                   "rock_kg_s_low95",
-                   "rock_kg_s_high95",
-                   "water_kg_s",
-                   "water_kg_s_low95",
-                   "water_kg_s_high95",
-                   "fines_kg_s",
-                   "water_m3_per_t",
-                   "water_m3_per_t_low95",
-                   "water_m3_per_t_high95",
-                   "rock_speed_m_s",
-                   "water_speed_m_s",
-                   "rock_size_mean_m",
-                   "rock_size_p80_m",
-                   "rock_energy_W",
-                   "dry_rock_kg_s",
-                   "rock_residence_s"};
-  for (const ExitBinRow& r : rows)
-    table.add({r.exit,
-               static_cast<double>(r.bin),
-               r.from_m,
-               r.to_m,
-               r.from_s,
-               r.to_s,
-               r.rock_kg_s.mean,
-               r.rock_kg_s.low,
-               r.rock_kg_s.high,
-               r.water_kg_s.mean,
-               r.water_kg_s.low,
-               r.water_kg_s.high,
-               r.fines_kg_s,
-               r.water_m3_per_t.mean,
-               r.water_m3_per_t.low,
-               r.water_m3_per_t.high,
-               r.rock_speed_m_s,
-               r.water_speed_m_s,
-               r.rock_size_mean_m,
-               r.rock_size_p80_m,
-               r.rock_energy_W,
-               r.dry_rock_kg_s,
-               r.rock_residence_s});
+  table.columns = {"exit", "bin", "from_m", "to_m", "from_s", "to_s"};
+  for (const ExitColumn& column : exit_columns) {
+    table.columns.emplace_back(column.name);
+    if (column.limits == Limits::beside) add_limit_columns(table, column.name);
+  }
+  for (const ExitColumn& column : exit_columns)
+    if (column.limits == Limits::at_the_end) add_limit_columns(table, column.name);
+  for (const ExitBinRow& r : rows) {
+    std::vector<CsvCell> cells = {r.exit, static_cast<double>(r.bin), r.from_m, r.to_m, r.from_s, r.to_s};
+    for (const ExitColumn& column : exit_columns) {
+      const TableEstimate& e = r.*column.value;
+      cells.emplace_back(e.mean);
+      if (column.limits == Limits::beside) cells.insert(cells.end(), {e.low, e.high});
+    }
+    for (const ExitColumn& column : exit_columns)
+      if (column.limits == Limits::at_the_end)
+        cells.insert(cells.end(), {(r.*column.value).low, (r.*column.value).high});
+    table.add(std::move(cells));
+  }
   return table;
 }
 

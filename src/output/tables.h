@@ -24,14 +24,14 @@ struct ExitBinRow {
   double from_m = 0, to_m = 0;                  ///< along the width, from its first end
   double from_s = not_known, to_s = not_known;  ///< averaging interval
   TableEstimate rock_kg_s, water_kg_s;          ///< water with its fines
-  double fines_kg_s = not_known;
+  TableEstimate fines_kg_s;
   TableEstimate water_m3_per_t;  ///< water per tonne of rock
-  double rock_speed_m_s = not_known, water_speed_m_s = not_known;
-  double rock_size_mean_m = not_known;  ///< by mass
-  double rock_size_p80_m = not_known;   ///< 80 % of the mass is finer
-  double rock_energy_W = not_known;     ///< kinetic energy landing per second
-  double dry_rock_kg_s = not_known;     ///< rock that left unwetted
-  double rock_residence_s = not_known;  ///< mean time since the feed
+  TableEstimate rock_speed_m_s, water_speed_m_s;
+  TableEstimate rock_size_mean_m;  ///< by mass
+  TableEstimate rock_size_p80_m;   ///< 80 % of the mass is finer
+  TableEstimate rock_energy_W;     ///< kinetic energy landing per second
+  TableEstimate dry_rock_kg_s;     ///< rock that left unwetted
+  TableEstimate rock_residence_s;  ///< mean time since the feed
 };
 CsvTable exit_table(const std::vector<ExitBinRow>& rows);
 

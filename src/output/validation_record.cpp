@@ -3,47 +3,27 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
+#include "output/json_text.h"
 #include "output/run_folder.h"
 
 namespace sluice {
 
 namespace {
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      out += {'\\', c};
-    else if (static_cast<unsigned char>(c) < 0x20)
-      out += fmt::format("\\u{:04x}", static_cast<int>(c));
-    else
-      out += c;
-  }
-  return out + '"';
-}
-
-std::string number_or_null(double x) {
-  return std::isfinite(x) ? fmt::format("{:.9g}", x) : "null";
-}
-std::string number_or_null(const std::optional<double>& x) {
-  return x ? number_or_null(*x) : "null";
-}
-
 std::string rung_json(const ValidationRung& r) {
   std::string values;
   for (const ValidationValue& v : r.values)
     values += fmt::format("{}\n       {{\"what\": {}, \"measured\": {}, \"reference\": {}}}",
-                          values.empty() ? "" : ",", quoted(v.what), number_or_null(v.measured),
-                          number_or_null(v.reference));
+                          values.empty() ? "" : ",", json_string(v.what), json_number(v.measured),
+                          json_number(v.reference));
   return fmt::format(
       "     {{\"setting\": {}, \"number\": {}, \"error\": {}, \"gate\": {}, \"passed\": {}, \"stable\": {}, "
       "\"message\": {},\n      \"seconds\": {}, \"particle_steps\": {}, \"ns_per_particle_step\": {}, "
       "\"command\": {},\n      \"values\": [{}]}}",
-      quoted(r.setting), number_or_null(r.number), number_or_null(r.error), number_or_null(r.gate),
-      r.passed(), r.stable, quoted(r.message), number_or_null(r.seconds), number_or_null(r.particle_steps),
-      number_or_null(r.nanoseconds()), quoted(r.command), values);
+      json_string(r.setting), json_number(r.number), json_number(r.error), json_number(r.gate), r.passed(),
+      r.stable, json_string(r.message), json_number(r.seconds), json_number(r.particle_steps),
+      json_number(r.nanoseconds()), json_string(r.command), values);
 }
 
 std::string case_json(const ValidationCase& c) {
@@ -54,9 +34,9 @@ std::string case_json(const ValidationCase& c) {
       "\"particle\": {},\n   \"source\": {},\n   \"shortfall\": {},\n   \"order\": {}, \"least_order\": {}, "
       "\"whole_ladder\": {},\n"
       "   \"rungs\": [{}]}}",
-      quoted(c.name), quoted(c.title), quoted(c.group), c.passed(), quoted(c.norm), quoted(c.vary),
-      quoted(c.particle), quoted(c.source), quoted(c.shortfall), number_or_null(c.order),
-      number_or_null(c.least_order), c.whole(), rungs);
+      json_string(c.name), json_string(c.title), json_string(c.group), c.passed(), json_string(c.norm),
+      json_string(c.vary), json_string(c.particle), json_string(c.source), json_string(c.shortfall),
+      json_number(c.order), json_number(c.least_order), c.whole(), rungs);
 }
 
 }  // namespace
@@ -78,8 +58,9 @@ std::string validation_json(const ValidationRecord& record) {
       "{{\n \"sluice\": {{\"version\": {}, \"commit\": {}, \"compiler\": {}, \"flags\": {}}},\n"
       " \"machine\": {{\"threads\": {}, \"cpu\": {}}},\n \"command\": {},\n \"passed\": {},\n"
       " \"cases\": [{}]\n}}\n",
-      quoted(record.version), quoted(record.commit), quoted(record.compiler), quoted(record.flags),
-      record.threads, quoted(record.cpu), quoted(record.command), record.passed(), cases);
+      json_string(record.version), json_string(record.commit), json_string(record.compiler),
+      json_string(record.flags), record.threads, json_string(record.cpu), json_string(record.command),
+      record.passed(), cases);
 }
 
 void write_validation_json(const std::filesystem::path& file, const ValidationRecord& record) {

@@ -165,8 +165,7 @@ std::string pictures(const std::vector<RunResults>& runs, const std::vector<std:
 
 }  // namespace
 
-void write_comparison_page(const std::vector<std::filesystem::path>& run_folders,
-                           const std::filesystem::path& out, const std::string& title) {
+Page comparison_page(const std::vector<std::filesystem::path>& run_folders, const std::string& title) {
   std::vector<RunResults> runs;
   for (const auto& folder : run_folders) runs.push_back(read_results(folder));
   const std::vector<std::string> names = names_of(runs);
@@ -201,7 +200,12 @@ void write_comparison_page(const std::vector<std::filesystem::path>& run_folders
                          html(runs[k].folder.root.string()), html(runs[k].manifest.sluice.version),
                          html(runs[k].manifest.sluice.commit), html(runs[k].manifest.state_hash));
   page.sections.push_back({"provenance", "Where it comes from", links + "</ul>"});
-  write_atomically(out, page_html(page));
+  return page;
+}
+
+void write_comparison_page(const std::vector<std::filesystem::path>& run_folders,
+                           const std::filesystem::path& out, const std::string& title) {
+  write_atomically(out, page_html(comparison_page(run_folders, title)));
 }
 
 }  // namespace sluice

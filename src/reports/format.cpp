@@ -88,6 +88,20 @@ std::string number(std::optional<double> x, int digits) {
   return number(x.value_or(std::nan("")), digits);
 }
 
+std::string number_with_limits(double x, double half_width) {
+  if (!std::isfinite(x)) return number(x);
+  if (!std::isfinite(half_width) || half_width < 0) return number(x);
+  if (half_width < 1e-6 * std::abs(x) || half_width < 1e-4)
+    return number(x) + " \u00b1 " + number(half_width, 1);
+  int place = static_cast<int>(std::floor(std::log10(half_width)));
+  if (half_width < 1.95 * std::pow(10, place)) --place;  // a leading 1 keeps a second digit
+  const double step = std::pow(10, place);
+  const auto rounded = [&](double v) {
+    return grouped(fmt::format("{:.{}f}", std::round(v / step) * step, std::max(0, -place)));
+  };
+  return rounded(x) + " \u00b1 " + rounded(half_width);
+}
+
 std::string count(double n) {
   return std::isfinite(n) ? grouped(fmt::format("{:.0f}", n)) : "\u2013";
 }

@@ -15,6 +15,9 @@ std::string script_json(std::string_view json);
 /// `digits` significant digits, thousands apart by a thin space, "-" for what is not a number.
 std::string number(double x, int digits = 3);
 std::string number(std::optional<double> x, int digits = 3);
+/// "0.21 ± 0.02": the limits to one significant digit (two where it is a 1), the value to the same place; the
+/// value alone where there are no limits.
+std::string number_with_limits(double x, double half_width);
 /// A whole count, thousands apart.
 std::string count(double n);
 /// "1.5 s", "3 min 20 s", "2 h 5 min"

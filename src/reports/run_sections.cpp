@@ -25,6 +25,16 @@ std::string percent(std::optional<double> fraction) {
   return fraction ? number(100 * *fraction, 3) : number(std::nan(""));
 }
 
+/// A steady average with its 95 % limits, "-" where there is none.
+/// @param alone  the average as a run has it whose manifest knows no limits
+std::string with_limits(const RunManifest::ExitSummary& exit, std::string_view figure,
+                        std::optional<double> alone, double factor) {
+  if (exit.averages && exit.averages->steady)
+    for (const RunManifest::Figure& f : exit.averages->figures)
+      if (f.name == figure) return number_with_limits(factor * f.value, factor * (f.high95 - f.value));
+  return number(alone ? factor * *alone : std::nan(""));
+}
+
 std::string tags(const std::vector<std::string>& names, const char* style) {
   std::string out = fmt::format("<div class=\"tags {}\">", style);
   for (const std::string& name : names) out += "<span>" + html(name) + "</span>";
@@ -156,20 +166,30 @@ PageSection exit_section(const RunResults& run) {
       "confidence limits of the mean. Averages start where the flow has become steady; where it has not, "
       "the numbers are missing and the warnings say why.</p>";
   std::vector<std::vector<std::string>> rows;
-  for (const auto& e : m.exits)
-    rows.push_back({html(e.name), e.rock_kg_s ? number(t_h(*e.rock_kg_s)) : number(std::nan("")),
-                    e.water_kg_s ? number(t_h(*e.water_kg_s)) : number(std::nan("")),
-                    number(e.water_m3_per_t), number(e.rock_cov_across_width, 2),
-                    number(e.rock_cov_corrected, 2), number(e.water_cov_across_width, 2),
-                    number(e.water_to_rock_cov, 2), percent(e.dry_rock_fraction),
-                    e.rock_size_p80_m ? number(1000 * *e.rock_size_p80_m) : number(std::nan("")),
-                    number(e.steady_from_s)});
+  std::string not_steady;
+  for (const auto& e : m.exits) {
+    rows.push_back({html(e.name), with_limits(e, "rock_kg_s", e.rock_kg_s, 3.6),
+                    with_limits(e, "water_kg_s", e.water_kg_s, 3.6),
+                    with_limits(e, "water_m3_per_t", e.water_m3_per_t, 1),
+                    with_limits(e, "rock_cov_across_width", e.rock_cov_across_width, 1),
+                    with_limits(e, "rock_cov_corrected", e.rock_cov_corrected, 1),
+                    with_limits(e, "water_cov_across_width", e.water_cov_across_width, 1),
+                    with_limits(e, "water_to_rock_cov", e.water_to_rock_cov, 1),
+                    with_limits(e, "dry_rock_fraction", e.dry_rock_fraction, 100),
+                    with_limits(e, "rock_size_p80_m", e.rock_size_p80_m, 1000),
+                    with_limits(e, "rock_speed_m_s", std::nullopt, 1), number(e.steady_from_s)});
+    if (e.averages && !e.averages->steady)
+      not_steady += "<li>" + html(e.name) + ": " + html(e.averages->reason) + "</li>";
+  }
   if (!rows.empty())
-    section.body += html_table(
-        {"exit", "rock<br>t/h", "water with fines<br>t/h", "water per rock<br>m\u00b3/t",
-         "CoV of rock<br>across width", "CoV of rock<br>less shot noise", "CoV of water<br>across width",
-         "CoV of water<br>to rock", "rock left dry<br>%", "P80 of rock<br>mm", "steady from<br>s"},
-        rows);
+    section.body +=
+        html_table({"exit", "rock<br>t/h", "water with fines<br>t/h", "water per rock<br>m\u00b3/t",
+                    "CoV of rock<br>across width", "CoV of rock<br>less shot noise",
+                    "CoV of water<br>across width", "CoV of water<br>to rock", "rock left dry<br>%",
+                    "P80 of rock<br>mm", "speed of rock<br>m/s", "steady from<br>s"},
+                   rows);
+  if (!not_steady.empty())
+    section.body += "<p>No steady averages, and why:</p><ul class=\"warnings\">" + not_steady + "</ul>";
   if (!run.exits) return section;
   for (const ExitDistribution& exit : exit_distributions(*run.exits)) {
     std::string charts;

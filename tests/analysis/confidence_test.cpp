@@ -35,6 +35,31 @@ TEST(BatchMean, HasNoLimitsForAShortSeries) {
   EXPECT_TRUE(std::isnan(batch_mean({}).value));
 }
 
+TEST(JackknifeHalfWidth, OfAMeanIsThatOfBatchMeans) {
+  Random random(9);
+  std::vector<double> series;
+  for (int i = 0; i < 60; ++i) series.push_back(random.normal());
+  double sum = 0;
+  for (double x : series) sum += x;
+  std::vector<double> without;
+  for (int b = 0; b < 20; ++b)
+    without.push_back((sum - series[3 * b] - series[3 * b + 1] - series[3 * b + 2]) / 57);
+  EXPECT_NEAR(jackknife_half_width(without), batch_mean(series).half_width, 1e-13);
+}
+
+TEST(JackknifeHalfWidth, IsUnknownWhereTheFigureIs) {
+  EXPECT_TRUE(std::isnan(jackknife_half_width({1, 2, 3})));
+  EXPECT_TRUE(std::isnan(jackknife_half_width({1, 2, 3, std::nan("")})));
+}
+
+TEST(ReplicateMean, GivesTheWorkedLimits) {
+  // Mean 5, standard deviation sqrt(10), t(0.975, 4) = 2.776 (Abramowitz & Stegun, table 26.10).
+  const Estimate e = replicate_mean({1, 3, 5, 7, 9});
+  EXPECT_DOUBLE_EQ(e.value, 5);
+  EXPECT_NEAR(e.half_width, 2.776 * std::sqrt(10.0 / 5), 0.01 * 3.93);
+  EXPECT_TRUE(std::isnan(replicate_mean({1, 2, 3}).half_width));
+}
+
 TEST(WeightedQuantile, IsTheValueOfASingleRock) {
   EXPECT_EQ(weighted_quantile({0.05}, {3}, 0.8), 0.05);
 }

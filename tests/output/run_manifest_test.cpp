@@ -42,6 +42,8 @@ RunManifest full_manifest() {
   lip.rock_kg_s = 333;
   lip.rock_cov_across_width = 0.2;
   lip.steady_from_s = 5;
+  lip.averages = RunManifest::ExitAverages{
+      5, 12, true, "", {{"rock_kg_s", 333, 320, 346}, {"p80_m", 0.08, HUGE_VAL, HUGE_VAL}}};
   m.state_hash = "0123456789abcdef";
   m.warnings = {"one", "two"};
   return m;

@@ -26,11 +26,12 @@ TEST(Tables, PutValuesUnderTheirNames) {
   exit.exit = "lip";
   exit.bin = 3;
   exit.rock_kg_s = {10, 9, 11};
-  exit.rock_residence_s = 4.5;
+  exit.rock_residence_s = {4.5, 4, 5};
   const CsvTable table = exit_table({exit});
   EXPECT_EQ(table.numbers("bin"), std::vector<double>{3});
   EXPECT_EQ(table.numbers("rock_kg_s_high95"), std::vector<double>{11});
   EXPECT_EQ(table.numbers("rock_residence_s"), std::vector<double>{4.5});
+  EXPECT_EQ(table.numbers("rock_residence_s_low95"), std::vector<double>{4});
   EXPECT_TRUE(std::isnan(table.numbers("water_kg_s")[0]));
 }
 

@@ -8,6 +8,7 @@
 #include "base/memory_archive.h"
 #include "base/parallel.h"
 #include "processes/build_parts.h"
+#include "processes/study_config.h"
 #include "simulation/simulation.h"
 
 namespace sluice {
@@ -20,8 +21,17 @@ const fs::path processes = fs::path(SLUICE_ROOT) / "processes";
 std::vector<fs::path> all_process_files() {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(processes))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() != "studies")
+      files.push_back(entry.path());
   std::sort(files.begin(), files.end());
+  return files;
+}
+
+std::vector<fs::path> all_study_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(processes))
+    if (entry.path().extension() == ".yaml" && entry.path().parent_path().filename() == "studies")
+      files.push_back(entry.path());
   return files;
 }
 
@@ -45,6 +55,22 @@ TEST(ProcessFiles, AllLoadAndFitTogether) {
       const Simulation simulation(std::move(build_parts(config).parts));
       EXPECT_FALSE(config.title.empty());
       EXPECT_GT(simulation.time_step().dt, 0.0);
+    });
+  }
+}
+
+TEST(StudyFiles, AllLoadAndEveryVariationFitsTogether) {
+  const std::vector<fs::path> files = all_study_files();
+  ASSERT_GE(files.size(), 2u);
+  for (const fs::path& file : files) {
+    SCOPED_TRACE(file.string());
+    EXPECT_NO_THROW({
+      const StudyConfig study = read_study(file);
+      for (const VariationConfig& variation : study.variations) {
+        std::vector<std::string> set = study.set;
+        set.insert(set.end(), variation.set.begin(), variation.set.end());
+        build_parts(read_process(study.process_of(variation), set));
+      }
     });
   }
 }

@@ -107,6 +107,10 @@ RunManifest manifest_of(SampleScene scene, int seed) {
   lip.rock_cov_corrected = 0.21;
   lip.rock_size_p80_m = 0.081;
   lip.steady_from_s = 4.5;
+  lip.averages = RunManifest::ExitAverages{4.5, 12.5, true, "", {}};
+  lip.averages->figures = {{"rock_kg_s", *lip.rock_kg_s, *lip.rock_kg_s - 12, *lip.rock_kg_s + 12},
+                           {"rock_cov_across_width", *lip.rock_cov_across_width,
+                            *lip.rock_cov_across_width - 0.03, *lip.rock_cov_across_width + 0.03}};
   m.state_hash = "89abcdef01234567";
   m.warnings = {"8.25 kg of rock left through the open sides of the domain",
                 "a warning with <tags> & \"quotes\""};
@@ -147,13 +151,13 @@ void write_tables(const RunFolder& folder, SampleScene scene, int seed) {
     row.to_m = 0.2 * (bin + 1);
     const double hill = std::exp(-std::pow((bin - 5.5 + 0.4 * seed) / 4.0, 2));
     row.rock_kg_s = {38 * hill, 34 * hill, 42 * hill};
-    row.rock_size_mean_m = 0.05 + 0.01 * hill;
-    row.rock_speed_m_s = 2.6 + 0.2 * hill;
+    row.rock_size_mean_m = {0.05 + 0.01 * hill, 0.048 + 0.01 * hill, 0.052 + 0.01 * hill};
+    row.rock_speed_m_s = {2.6 + 0.2 * hill, not_known, not_known};
     if (!wet) continue;
     row.water_kg_s = {12.3 + hill, 11.8 + hill, 12.9 + hill};
     row.water_m3_per_t = {(12.3 + hill) / (38 * hill), 0.9 * (12.3 + hill) / (38 * hill),
                           1.1 * (12.3 + hill) / (38 * hill)};
-    row.water_speed_m_s = 3.1;
+    row.water_speed_m_s = {3.1, 3.0, 3.2};
   }
   write_csv(folder.exits(), exit_table(exits));
 
