@@ -130,11 +130,17 @@ LevelWeights CouplingGrid::weights(int l, const Vec3& x) const {
   }
   LevelWeights out;
   out.slab = level.first_slab + index[level.slab_axis][0];
-  for (std::size_t c = 0; c < 8; ++c) {
-    const std::size_t i = c & 1, j = (c >> 1) & 1, k = c >> 2;
-    out.node[c] = index[0][i] + level.nodes.x() * (index[1][j] + level.nodes.y() * index[2][k]);
-    out.weight[c] = share[0][i] * share[1][j] * share[2][k];
-  }
+  const int stride_y = level.nodes.x(), stride_z = level.nodes.x() * level.nodes.y();
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t j = 0; j < 2; ++j) {
+      const int row = stride_y * index[1][j] + stride_z * index[2][k];
+      const double of_row = share[1][j] * share[2][k];
+      const std::size_t c = 4 * k + 2 * j;
+      out.node[c] = row + index[0][0];
+      out.node[c + 1] = row + index[0][1];
+      out.weight[c] = share[0][0] * of_row;
+      out.weight[c + 1] = share[0][1] * of_row;
+    }
   return out;
 }
 

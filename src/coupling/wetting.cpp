@@ -80,23 +80,19 @@ double FillTable::wetted_fraction(const WettingPoints& points, const Vec3& centr
   for (std::size_t from = 0; from < points.count(); from += row) {
     const std::size_t n = std::min(row, points.count() - from);
     const float *x = points.x.data() + from, *y = points.y.data() + from, *z = points.z.data() + from;
-    std::array<int, row> i{}, j{}, k{};
-    const auto find = [&](std::size_t count) {
-      for (std::size_t p = 0; p < count; ++p) {
-        i[p] = static_cast<int>(at[0] + m[0][0] * x[p] + m[0][1] * y[p] + m[0][2] * z[p]);
-        j[p] = static_cast<int>(at[1] + m[1][0] * x[p] + m[1][1] * y[p] + m[1][2] * z[p]);
-        k[p] = static_cast<int>(at[2] + m[2][0] * x[p] + m[2][1] * y[p] + m[2][2] * z[p]);
-      }
+    const auto cell = [&](int axis, std::size_t p) {
+      const float* turned = m[axis];
+      return static_cast<int>(at[axis] + turned[0] * x[p] + turned[1] * y[p] + turned[2] * z[p]);
     };
     if (n == row && inside) {
-      find(row);
+      std::array<int, row> at_slot;
       for (std::size_t p = 0; p < row; ++p)
-        sum[p] += table_[static_cast<std::size_t>(first + i[p] + stride_y * j[p] + stride_z * k[p])];
+        at_slot[p] = first + cell(0, p) + stride_y * cell(1, p) + stride_z * cell(2, p);
+      for (std::size_t p = 0; p < row; ++p) sum[p] += table_[static_cast<std::size_t>(at_slot[p])];
       continue;
     }
-    find(n);
     for (std::size_t p = 0; p < n; ++p) {
-      const int s = slot(low[0] + i[p], low[1] + j[p], low[2] + k[p]);
+      const int s = slot(low[0] + cell(0, p), low[1] + cell(1, p), low[2] + cell(2, p));
       if (s >= 0) sum[p] += table_[static_cast<std::size_t>(s)];
     }
   }
