@@ -68,8 +68,9 @@ struct Coupling::Implementation {
   SlabOrder by_slab;
   std::vector<double> wetted;
   std::vector<Vec3> drag, buoyancy, force, torque;
-  std::vector<Vec3> node_impulse, node_acceleration;
-  std::vector<double> displaced, void_fraction;
+  FromRocks to_nodes;
+  std::vector<Vec3> node_acceleration;
+  std::vector<double> void_fraction;
 
   // Filtered Du/Dt - g per rock, kept by id; zero where dry.
   std::vector<std::uint64_t> filter_id;
@@ -246,18 +247,18 @@ void Coupling::Implementation::share_impulses(double dt) {
 }
 
 void Coupling::Implementation::give_to_fluid() {
-  grid.scatter(nodes, node_impulse, displaced);
+  grid.scatter(nodes, to_nodes);
   on_fluid += parallel_sum<Vec3>(
-      nodes.count(), [&](std::size_t i) { return node_impulse[i]; }, Vec3::Zero());
-  fluid.add_impulse(node_impulse);
+      nodes.count(), [&](std::size_t i) { return to_nodes.impulse[i]; }, Vec3::Zero());
+  fluid.add_impulse(to_nodes.impulse);
   void_fraction.resize(nodes.count());
   constexpr std::size_t chunk = 1024;
   std::vector<double> least((nodes.count() + chunk - 1) / chunk, 1.0);
   parallel_chunks(nodes.count(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       void_fraction[i] = 1;
-      if (displaced[i] > 0 && nodes.open_volume[i] > 0)
-        void_fraction[i] = std::max(least_void_fraction, 1 - displaced[i] / nodes.open_volume[i]);
+      if (to_nodes.displaced[i] > 0 && nodes.open_volume[i] > 0)
+        void_fraction[i] = std::max(least_void_fraction, 1 - to_nodes.displaced[i] / nodes.open_volume[i]);
       least[c] = std::min(least[c], void_fraction[i]);
     }
   });
@@ -308,6 +309,10 @@ void Coupling::drag(double dt) {
 void Coupling::fluid_to_grid(double dt) {
   Implementation& c = *implementation_;
   c.fluid.read_accelerations(c.node_acceleration);
+  // Drag moves the fluid without a gradient of pressure.
+  if (c.config.mode == CouplingMode::two_way)
+    parallel_for(c.nodes.count(),
+                 [&](std::size_t i) { c.node_acceleration[i] -= c.to_nodes.change_by_drag[i] / dt; });
   c.grid.gather_acceleration(c.nodes, c.node_acceleration);
   c.filter_acceleration(dt);
 }

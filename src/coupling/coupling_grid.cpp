@@ -270,8 +270,7 @@ void CouplingGrid::gather_acceleration(const FluidNodes& nodes, const std::vecto
   }
 }
 
-void CouplingGrid::scatter(const FluidNodes& nodes, std::vector<Vec3>& impulse,
-                           std::vector<double>& displaced) {
+void CouplingGrid::scatter(const FluidNodes& nodes, FromRocks& out) {
   // Coarse to fine, then to the fluid's nodes, each in proportion to mass.
   const auto from = [](const CouplingLevel& level, const LevelWeights& place) {
     NodeLanes per_mass{};
@@ -282,19 +281,26 @@ void CouplingGrid::scatter(const FluidNodes& nodes, std::vector<Vec3>& impulse,
     CouplingLevel& level = this->level(l);
     parallel_for(level.wet.size(), [&](std::size_t i) {
       const int node = level.wet[i];
+      const NodeLanes& fluid = level.fluid_at(node);
       NodeLanes& per_mass = level.rock_at(node);
-      per_mass /= level.fluid_at(node)[fluid_lane::mass];
+      const NodeLanes solved = per_mass;
+      per_mass /= fluid[fluid_lane::mass];
+      for (int k = 0; k < 3; ++k)  // what drag changed: u' - u
+        per_mass[rock_lane::velocity + k] =
+            solved[rock_lane::velocity + k] - fluid[fluid_lane::momentum + k] / fluid[fluid_lane::mass];
       if (l < coarsest_) per_mass += from(this->level(l + 1), level.up[static_cast<std::size_t>(node)]);
     });
   }
-  impulse.resize(nodes.count());
-  displaced.resize(nodes.count());
+  out.impulse.resize(nodes.count());
+  out.change_by_drag.resize(nodes.count());
+  out.displaced.resize(nodes.count());
   const CouplingLevel& finest = level(finest_);
   parallel_for(nodes.count(), [&](std::size_t i) {
-    const NodeLanes share = nodes.mass[i] * from(finest, weights(finest_, nodes.x[i]));
-    constexpr int first = rock_lane::impulse;
-    impulse[i] = {share[first], share[first + 1], share[first + 2]};
-    displaced[i] = share[rock_lane::displaced];
+    const NodeLanes per_mass = from(finest, weights(finest_, nodes.x[i]));
+    constexpr int p = rock_lane::impulse, v = rock_lane::velocity;
+    out.impulse[i] = nodes.mass[i] * Vec3(per_mass[p], per_mass[p + 1], per_mass[p + 2]);
+    out.change_by_drag[i] = {per_mass[v], per_mass[v + 1], per_mass[v + 2]};
+    out.displaced[i] = nodes.mass[i] * per_mass[rock_lane::displaced];
   });
 }
 

@@ -34,8 +34,9 @@ using NodeLanes = double __attribute__((vector_size(64)));
 namespace fluid_lane {
 inline constexpr int mass = 0, momentum = 1, density = 4, viscosity = 5, solids = 6, per_volume = 7;
 }
-/// Of wet rocks: sum of b w [kg], of b w v_rock [kg m/s] (the common velocity u' once nodes are solved);
-/// impulse to be given to the fluid [N s] and wetted volume of rock [m3], per mass of fluid in scatter.
+/// Of wet rocks: sum of b w [kg], of b w v_rock [kg m/s] (the common velocity u' once nodes are solved, u' -
+/// u in scatter); impulse to be given to the fluid [N s] and wetted volume of rock [m3], per mass of fluid in
+/// scatter.
 namespace rock_lane {
 inline constexpr int take_up = 0, velocity = 1, impulse = 4, displaced = 7;
 }
@@ -63,6 +64,13 @@ struct CouplingLevel {
   const NodeLanes& fluid_at(int node) const { return fluid[static_cast<std::size_t>(node)].lanes; }
   NodeLanes& rock_at(int node) { return rock[static_cast<std::size_t>(node)].lanes; }
   const NodeLanes& rock_at(int node) const { return rock[static_cast<std::size_t>(node)].lanes; }
+};
+
+/// What rocks do to the fluid's nodes; arrays of #nodes.
+struct FromRocks {
+  std::vector<Vec3> impulse;         ///< drag and buoyancy [N s]
+  std::vector<Vec3> change_by_drag;  ///< of velocity, by drag alone [m/s]
+  std::vector<double> displaced;     ///< wetted volume [m3]
 };
 
 class CouplingGrid {
@@ -98,8 +106,8 @@ class CouplingGrid {
   void gather(const FluidNodes& nodes);
   /// The same nodes' acceleration. @pre gather was called with these nodes
   void gather_acceleration(const FluidNodes& nodes, const std::vector<Vec3>& acceleration);
-  /// Impulse [N s] and displaced volume [m3] of each fluid node from all levels. @pre as above
-  void scatter(const FluidNodes& nodes, std::vector<Vec3>& impulse, std::vector<double>& displaced);
+  /// What the rocks of all levels do to each fluid node. @pre as above, and nodes are solved
+  void scatter(const FluidNodes& nodes, FromRocks& out);
   std::size_t memory_bytes() const;
 
  private:
