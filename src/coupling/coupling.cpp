@@ -7,6 +7,7 @@
 #include "base/find_by_id.h"
 #include "base/parallel.h"
 #include "coupling/coupling_grid.h"
+#include "coupling/cross_section.h"
 #include "coupling/wetting.h"
 
 namespace sluice {
@@ -38,8 +39,10 @@ struct Coupling::Implementation {
         table(domain, f.spacing()),
         domain(domain) {
     points = wetting_points(r.shapes(), static_cast<int>(c.wetting_points));
-    for (const RockShape& shape : r.shapes())
+    for (const RockShape& shape : r.shapes()) {
+      if (c.drag == DragModel::hoelzer_sommerfeld) cross_sections.emplace_back(shape);
       diameter_per_size.push_back(std::cbrt(6 / std::numbers::pi * shape.volume));
+    }
   }
 
   void place_rocks();
@@ -60,8 +63,9 @@ struct Coupling::Implementation {
   CouplingGrid grid;
   FillTable table;
   Domain domain;
-  std::vector<WettingPoints> points;      // of each shape
-  std::vector<double> diameter_per_size;  // of the sphere of equal volume, of each shape
+  std::vector<WettingPoints> points;         // of each shape
+  std::vector<double> diameter_per_size;     // of the sphere of equal volume, of each shape
+  std::vector<CrossSection> cross_sections;  // of each shape, where the drag law asks
 
   FluidNodes nodes;
   std::vector<RockOnGrid> on_grid;
@@ -83,11 +87,7 @@ struct Coupling::Implementation {
 void CouplingConfig::keys(Schema& s) {
   s.choice("mode", mode, {{"two_way", CouplingMode::two_way}, {"one_way", CouplingMode::one_way}},
            {.doc = "one_way: rocks feel the water, the water does not feel the rocks"});
-  s.choice("drag", drag,
-           {{"di_felice", DragModel::di_felice},
-            {"schiller_naumann", DragModel::schiller_naumann},
-            {"gidaspow", DragModel::gidaspow}},
-           {.doc = "drag law of a rock among others"});
+  s.choice("drag", drag, drag_models, {.doc = "drag law of a rock among others"});
   s.number("kernel_diameters", kernel_diameters,
            {.at_least = 2, .at_most = 16, .doc = "least width of the averaging kernel over the rock's size"});
   s.number("filter_time_factor", filter_time_factor,
@@ -183,7 +183,14 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
   in.diameter = all.size[r] * diameter_per_size[static_cast<std::size_t>(all.shape[r])];
   in.void_fraction = std::max(least_void_fraction, 1 - solids_fraction_around(r));
   constexpr int p = fluid_lane::momentum;
-  in.speed = (Vec3(sums[p], sums[p + 1], sums[p + 2]) / mass - all.v[r]).norm();
+  const Vec3 slip = Vec3(sums[p], sums[p + 1], sums[p + 2]) / mass - all.v[r];
+  in.speed = slip.norm();
+  const auto shape = static_cast<std::size_t>(all.shape[r]);
+  in.sphericity = rocks.shapes()[shape].sphericity;
+  if (!cross_sections.empty() && in.speed > 0) {
+    const double section = cross_sections[shape].seen_along(all.q[r].conjugate() * (slip / in.speed));
+    in.crosswise = std::numbers::pi / 4 * std::pow(diameter_per_size[shape], 2) / section;
+  }
   const double beta = rock.wetted * drag_per_speed(config.drag, in);
   rock.take_up = -all.mass[r] * std::expm1(-beta * dt / all.mass[r]);
   // The filtered acceleration is evaluated in fluid_to_grid; here it becomes an impulse on both sides.
