@@ -7,6 +7,7 @@
 #include "base/find_by_id.h"
 #include "base/parallel.h"
 #include "coupling/coupling_grid.h"
+#include "coupling/cross_section.h"
 #include "coupling/wetting.h"
 
 namespace sluice {
@@ -18,11 +19,11 @@ constexpr double least_void_fraction = 0.3;
 
 /// What one rock has to do with the coupling grid in this exchange.
 struct RockOnGrid {
+  LevelWeights place;  ///< weights over all nodes; once wetted, times fluid mass: sum 1 either way
   int level = 0;
-  LevelWeights weights;  ///< over all nodes, sum 1
-  LevelWeights wet;      ///< times fluid mass, sum 1; unset where dry
   double wetted = 0;
-  double take_up = 0;  ///< b of the header [kg]
+  double take_up = 0;    ///< b of the header [kg]
+  double displaced = 0;  ///< wetted volume [m3]
 };
 
 }  // namespace
@@ -38,35 +39,44 @@ struct Coupling::Implementation {
         table(domain, f.spacing()),
         domain(domain) {
     points = wetting_points(r.shapes(), static_cast<int>(c.wetting_points));
+    for (const RockShape& shape : r.shapes()) {
+      if (c.drag == DragModel::hoelzer_sommerfeld) cross_sections.emplace_back(shape);
+      diameter_per_size.push_back(std::cbrt(6 / std::numbers::pi * shape.volume));
+    }
   }
 
   void place_rocks();
-  void find_wetted();
-  void evaluate_drag(double dt);
+  void keep_filter_with_rocks();
+  void meet_water(double dt);
+  void meet_water(std::size_t rock, double dt);
+  void add_to_nodes(double dt);
   void solve_nodes();
   void share_impulses(double dt);
-  void evaluate_buoyancy(double dt);
   void give_to_fluid();
+  void filter_acceleration(double dt);
   double solids_fraction_around(std::size_t rock) const;
-  double node_volume(int level, int node) const;
 
   CouplingConfig config;
   Vec3 gravity;
   DemSystem& rocks;
   FluidSystem& fluid;
   CouplingGrid grid;
-  NodeTable table;
+  FillTable table;
   Domain domain;
-  std::vector<std::vector<Vec3>> points;
+  std::vector<WettingPoints> points;         // of each shape
+  std::vector<double> diameter_per_size;     // of the sphere of equal volume, of each shape
+  std::vector<CrossSection> cross_sections;  // of each shape, where the drag law asks
 
   FluidNodes nodes;
   std::vector<RockOnGrid> on_grid;
+  SlabOrder by_slab;
   std::vector<double> wetted;
   std::vector<Vec3> drag, buoyancy, force, torque;
-  std::vector<Vec3> node_impulse, node_acceleration;
-  std::vector<double> displaced, void_fraction;
+  FromRocks to_nodes;
+  std::vector<Vec3> node_acceleration;
+  std::vector<double> void_fraction;
 
-  // Filtered Du/Dt - g per rock, kept by id.
+  // Filtered Du/Dt - g per rock, kept by id; zero where dry.
   std::vector<std::uint64_t> filter_id;
   std::vector<Vec3> filtered;
 
@@ -77,11 +87,7 @@ struct Coupling::Implementation {
 void CouplingConfig::keys(Schema& s) {
   s.choice("mode", mode, {{"two_way", CouplingMode::two_way}, {"one_way", CouplingMode::one_way}},
            {.doc = "one_way: rocks feel the water, the water does not feel the rocks"});
-  s.choice("drag", drag,
-           {{"di_felice", DragModel::di_felice},
-            {"schiller_naumann", DragModel::schiller_naumann},
-            {"gidaspow", DragModel::gidaspow}},
-           {.doc = "drag law of a rock among others"});
+  s.choice("drag", drag, drag_models, {.doc = "drag law of a rock among others"});
   s.number("kernel_diameters", kernel_diameters,
            {.at_least = 2, .at_most = 16, .doc = "least width of the averaging kernel over the rock's size"});
   s.number("filter_time_factor", filter_time_factor,
@@ -92,188 +98,196 @@ void CouplingConfig::keys(Schema& s) {
             {.at_least = 8, .at_most = 256, .doc = "points in each rock that find its wetted fraction"});
 }
 
-double Coupling::Implementation::node_volume(int level, int node) const {
-  const CouplingLevel& l = grid.level(level);
-  const int index[3] = {node % l.nodes.x(), (node / l.nodes.x()) % l.nodes.y(),
-                        node / (l.nodes.x() * l.nodes.y())};
-  double volume = l.cell_volume();
-  for (int k = 0; k < 3; ++k)
-    if (!domain.periodic(k) && (index[k] == 0 || index[k] == l.nodes[k] - 1)) volume *= 0.5;
-  return volume;
-}
-
 void Coupling::Implementation::place_rocks() {
   const Rocks& all = rocks.rocks();
   on_grid.resize(all.count());
-  grid.clear_solids();
+  std::vector<double> largest(static_cast<std::size_t>(grid.coarsest()) + 1, 0.0);
   for (std::size_t r = 0; r < all.count(); ++r) {
-    RockOnGrid& place = on_grid[r];
-    place.level = grid.level_for(config.kernel_diameters * all.size[r]);
-    place.weights = grid.weights(place.level, all.x[r]);
-    const double volume = rocks.volume(r);
-    CouplingLevel& level = grid.level(place.level);
-    for (std::size_t c = 0; c < 8; ++c)
-      level.solids[static_cast<std::size_t>(place.weights.node[c])] += place.weights.weight[c] * volume;
-    const double ratio = grid.kernel_width(place.level) / all.size[r];
+    on_grid[r].level = grid.level_for(config.kernel_diameters * all.size[r]);
+    double& size = largest[static_cast<std::size_t>(on_grid[r].level)];
+    size = std::max(size, all.size[r]);
+  }
+  for (int l = grid.finest(); l <= grid.coarsest(); ++l) {
+    if (largest[static_cast<std::size_t>(l)] == 0) continue;
+    const double ratio = grid.kernel_width(l) / largest[static_cast<std::size_t>(l)];
     kernel_ratio = kernel_ratio == 0 ? ratio : std::min(kernel_ratio, ratio);
   }
+  parallel_for(all.count(),
+               [&](std::size_t r) { on_grid[r].place = grid.weights(on_grid[r].level, all.x[r]); });
+  by_slab.sort(all.count(), grid.slab_count(), [&](std::size_t r) { return on_grid[r].place.slab; });
+  grid.clear_solids();
+  grid.each_slab(by_slab, [&](std::size_t, std::span<const std::uint32_t> items) {
+    for (const std::uint32_t r : items) grid.add_solids(on_grid[r].level, on_grid[r].place, rocks.volume(r));
+  });
 }
 
 // Solids fraction that the other rocks make around this one: a rock is not in its own way. Rocks of
 // other levels count through their own level's nodes.
 double Coupling::Implementation::solids_fraction_around(std::size_t r) const {
-  const RockOnGrid& place = on_grid[r];
-  const double own = rocks.volume(r);
+  const RockOnGrid& rock = on_grid[r];
   double fraction = 0;
-  for (int l = 0; l < grid.level_count(); ++l) {
-    if (!grid.in_use(l)) continue;
-    const LevelWeights w = l == place.level ? place.weights : grid.weights(l, rocks.rocks().x[r]);
+  for (int l = grid.finest(); l <= grid.coarsest(); ++l) {
+    const CouplingLevel& level = grid.level(l);
+    const double own = l == rock.level ? rocks.volume(r) : 0;
+    const LevelWeights w = l == rock.level ? rock.place : grid.weights(l, rocks.rocks().x[r]);
     for (std::size_t c = 0; c < 8; ++c) {
-      double volume = grid.level(l).solids[static_cast<std::size_t>(w.node[c])];
-      if (l == place.level) volume -= w.weight[c] * own;
-      fraction += w.weight[c] * std::max(0.0, volume) / node_volume(l, w.node[c]);
+      const NodeLanes& node = level.fluid_at(w.node[c]);
+      fraction += w.weight[c] * std::max(0.0, node[fluid_lane::solids] - w.weight[c] * own) *
+                  node[fluid_lane::per_volume];
     }
   }
   return fraction;
 }
 
-void Coupling::Implementation::find_wetted() {
-  const Rocks& all = rocks.rocks();
-  wetted.assign(all.count(), 0.0);
-  parallel_for(
-      all.count(),
-      [&](std::size_t r) {
-        RockOnGrid& place = on_grid[r];
-        place.wetted = 0;
-        const CouplingLevel& level = grid.level(place.level);
-        double sum = 0;
-        place.wet = place.weights;
-        for (std::size_t c = 0; c < 8; ++c) {
-          place.wet.weight[c] *= level.mass[static_cast<std::size_t>(place.wet.node[c])];
-          sum += place.wet.weight[c];
-        }
-        if (sum <= 0) return;
-        for (double& w : place.wet.weight) w /= sum;
-        place.wetted =
-            sluice::wetted_fraction(rocks, r, points[static_cast<std::size_t>(all.shape[r])], table, nodes);
-        wetted[r] = place.wetted;
-      },
-      64);
+// Rocks come, go and change places between exchanges.
+void Coupling::Implementation::keep_filter_with_rocks() {
+  const std::vector<std::uint64_t>& id = rocks.rocks().id;
+  if (filter_id == id) return;
+  std::vector<Vec3> kept(id.size(), Vec3::Zero());
+  FindById earlier(filter_id);
+  for (std::size_t r = 0; r < id.size(); ++r)
+    if (const auto known = earlier.find(id[r])) kept[r] = filtered[*known];
+  filter_id = id;
+  filtered = std::move(kept);
 }
 
-void Coupling::Implementation::evaluate_drag(double dt) {
-  const Rocks& all = rocks.rocks();
+void Coupling::Implementation::meet_water(double dt) {
+  const std::size_t count = rocks.rocks().count();
+  wetted.resize(count);
+  buoyancy.resize(count);
+  keep_filter_with_rocks();
   parallel_for(
-      all.count(),
-      [&](std::size_t r) {
-        RockOnGrid& place = on_grid[r];
-        place.take_up = 0;
-        if (place.wetted <= 0) return;
-        const CouplingLevel& level = grid.level(place.level);
-        double mass = 0, density = 0, viscosity = 0;
-        Vec3 momentum = Vec3::Zero();
-        for (std::size_t c = 0; c < 8; ++c) {
-          const auto n = static_cast<std::size_t>(place.weights.node[c]);
-          const double w = place.weights.weight[c];
-          mass += w * level.mass[n];
-          momentum += w * level.momentum[n];
-          density += w * level.density[n];
-          viscosity += w * level.viscosity[n];
-        }
-        DragInput in;
-        in.density = density / mass;
-        in.viscosity = viscosity / mass;
-        in.diameter = std::cbrt(6 / std::numbers::pi * rocks.volume(r));
-        in.void_fraction = std::max(least_void_fraction, 1 - solids_fraction_around(r));
-        in.speed = (momentum / mass - all.v[r]).norm();
-        const double beta = place.wetted * drag_per_speed(config.drag, in);
-        place.take_up = -all.mass[r] * std::expm1(-beta * dt / all.mass[r]);
-      },
-      64);
+      count, [&](std::size_t r) { meet_water(r, dt); }, 64);
+}
+
+// Wetted fraction, drag and buoyancy of one rock; nothing is written to nodes yet.
+void Coupling::Implementation::meet_water(std::size_t r, double dt) {
+  const Rocks& all = rocks.rocks();
+  RockOnGrid& rock = on_grid[r];
+  const CouplingLevel& level = grid.level(rock.level);
+  rock.wetted = rock.take_up = rock.displaced = wetted[r] = 0;
+  buoyancy[r] = Vec3::Zero();
+  NodeLanes sums{};
+  for (std::size_t c = 0; c < 8; ++c) sums += rock.place.weight[c] * level.fluid_at(rock.place.node[c]);
+  const double mass = sums[fluid_lane::mass];
+  if (mass > 0)
+    rock.wetted = table.wetted_fraction(points[static_cast<std::size_t>(all.shape[r])], all.x[r],
+                                        all.q[r].toRotationMatrix() * all.size[r], all.radius[r]);
+  if (rock.wetted <= 0) return;
+  wetted[r] = rock.wetted;
+  rock.displaced = rock.wetted * rocks.volume(r);
+
+  DragInput in;
+  in.density = sums[fluid_lane::density] / mass;
+  in.viscosity = sums[fluid_lane::viscosity] / mass;
+  in.diameter = all.size[r] * diameter_per_size[static_cast<std::size_t>(all.shape[r])];
+  in.void_fraction = std::max(least_void_fraction, 1 - solids_fraction_around(r));
+  constexpr int p = fluid_lane::momentum;
+  const Vec3 slip = Vec3(sums[p], sums[p + 1], sums[p + 2]) / mass - all.v[r];
+  in.speed = slip.norm();
+  const auto shape = static_cast<std::size_t>(all.shape[r]);
+  in.sphericity = rocks.shapes()[shape].sphericity;
+  if (!cross_sections.empty() && in.speed > 0) {
+    const double section = cross_sections[shape].seen_along(all.q[r].conjugate() * (slip / in.speed));
+    in.crosswise = std::numbers::pi / 4 * std::pow(diameter_per_size[shape], 2) / section;
+  }
+  const double beta = rock.wetted * drag_per_speed(config.drag, in);
+  rock.take_up = -all.mass[r] * std::expm1(-beta * dt / all.mass[r]);
+  // The filtered acceleration is evaluated in fluid_to_grid; here it becomes an impulse on both sides.
+  buoyancy[r] = rock.displaced * in.density * filtered[r];
+  for (std::size_t c = 0; c < 8; ++c)
+    rock.place.weight[c] *= level.fluid_at(rock.place.node[c])[fluid_lane::mass] / mass;
+}
+
+void Coupling::Implementation::add_to_nodes(double dt) {
+  const Rocks& all = rocks.rocks();
+  grid.each_slab(by_slab, [&](std::size_t, std::span<const std::uint32_t> items) {
+    for (const std::uint32_t r : items) {
+      const RockOnGrid& rock = on_grid[r];
+      if (rock.wetted <= 0) continue;
+      CouplingLevel& level = grid.level(rock.level);
+      const Vec3 bv = rock.take_up * all.v[r], lift = dt * buoyancy[r];
+      const NodeLanes sums{rock.take_up, bv.x(),    bv.y(),    bv.z(),
+                           -lift.x(),    -lift.y(), -lift.z(), rock.displaced};
+      for (std::size_t c = 0; c < 8; ++c) level.rock_at(rock.place.node[c]) += rock.place.weight[c] * sums;
+    }
+  });
 }
 
 void Coupling::Implementation::solve_nodes() {
-  const Rocks& all = rocks.rocks();
-  for (std::size_t r = 0; r < all.count(); ++r) {
-    const RockOnGrid& place = on_grid[r];
-    if (place.take_up <= 0) continue;
-    CouplingLevel& level = grid.level(place.level);
-    for (std::size_t c = 0; c < 8; ++c) {
-      const auto n = static_cast<std::size_t>(place.wet.node[c]);
-      const double b = place.take_up * place.wet.weight[c];
-      level.drag_sum[n] += b;
-      level.drag_rock_momentum[n] += b * all.v[r];
-    }
+  const bool two_way = config.mode == CouplingMode::two_way;
+  for (int l = grid.finest(); l <= grid.coarsest(); ++l) {
+    CouplingLevel& level = grid.level(l);
+    parallel_for(level.wet.size(), [&](std::size_t i) {
+      const NodeLanes& fluid = level.fluid_at(level.wet[i]);
+      NodeLanes& rock = level.rock_at(level.wet[i]);
+      const double mass = fluid[fluid_lane::mass], b = rock[rock_lane::take_up];
+      for (int k = 0; k < 3; ++k) {
+        const double u = fluid[fluid_lane::momentum + k] / mass;
+        const double change = two_way ? (rock[rock_lane::velocity + k] - b * u) / (mass + b) : 0;
+        rock[rock_lane::velocity + k] = u + change;
+        rock[rock_lane::impulse + k] += mass * change;
+      }
+    });
   }
 }
 
 void Coupling::Implementation::share_impulses(double dt) {
   const Rocks& all = rocks.rocks();
-  const bool two_way = config.mode == CouplingMode::two_way;
-  drag.assign(all.count(), Vec3::Zero());
-  for (std::size_t r = 0; r < all.count(); ++r) {
-    const RockOnGrid& place = on_grid[r];
-    if (place.take_up <= 0) continue;
-    CouplingLevel& level = grid.level(place.level);
-    Vec3 total = Vec3::Zero();
-    for (std::size_t c = 0; c < 8; ++c) {
-      const auto n = static_cast<std::size_t>(place.wet.node[c]);
-      const double b = place.take_up * place.wet.weight[c];
-      if (b <= 0) continue;
-      const Vec3 u =
-          two_way
-              ? Vec3((level.momentum[n] + level.drag_rock_momentum[n]) / (level.mass[n] + level.drag_sum[n]))
-              : Vec3(level.momentum[n] / level.mass[n]);
-      const Vec3 impulse = b * (u - all.v[r]);
-      total += impulse;
-      if (two_way) level.impulse[n] -= impulse;
+  drag.resize(all.count());
+  force.resize(all.count());
+  torque.assign(all.count(), Vec3::Zero());
+  parallel_for(all.count(), [&](std::size_t r) {
+    const RockOnGrid& rock = on_grid[r];
+    drag[r] = Vec3::Zero();
+    if (rock.wetted > 0) {
+      const CouplingLevel& level = grid.level(rock.level);
+      NodeLanes sums{};
+      for (std::size_t c = 0; c < 8; ++c) sums += rock.place.weight[c] * level.rock_at(rock.place.node[c]);
+      constexpr int u = rock_lane::velocity;
+      drag[r] = rock.take_up / dt * (Vec3(sums[u], sums[u + 1], sums[u + 2]) - all.v[r]);
     }
-    drag[r] = total / dt;
-  }
-}
-
-// The filtered acceleration is evaluated in fluid_to_grid; here it becomes an impulse on both sides.
-void Coupling::Implementation::evaluate_buoyancy(double dt) {
-  const Rocks& all = rocks.rocks();
-  const bool two_way = config.mode == CouplingMode::two_way;
-  buoyancy.assign(all.count(), Vec3::Zero());
-  FindById earlier(filter_id);
-  for (std::size_t r = 0; r < all.count(); ++r) {
-    const RockOnGrid& place = on_grid[r];
-    if (place.wetted <= 0) continue;
-    CouplingLevel& level = grid.level(place.level);
-    double mass = 0, density = 0;
-    for (std::size_t c = 0; c < 8; ++c) {
-      const auto n = static_cast<std::size_t>(place.weights.node[c]);
-      mass += place.weights.weight[c] * level.mass[n];
-      density += place.weights.weight[c] * level.density[n];
-    }
-    const auto known = earlier.find(all.id[r]);
-    const Vec3 lift = known ? filtered[*known] : Vec3(0, 0, 0);
-    const double displaced_volume = place.wetted * rocks.volume(r);
-    buoyancy[r] = displaced_volume * density / mass * lift;
-    if (!two_way) continue;
-    for (std::size_t c = 0; c < 8; ++c) {
-      const auto n = static_cast<std::size_t>(place.wet.node[c]);
-      level.impulse[n] -= place.wet.weight[c] * dt * buoyancy[r];
-      level.displaced[n] += place.wet.weight[c] * displaced_volume;
-    }
-  }
+    force[r] = drag[r] + buoyancy[r];
+  });
+  on_rocks += dt * parallel_sum<Vec3>(
+                       all.count(), [&](std::size_t r) { return force[r]; }, Vec3::Zero());
 }
 
 void Coupling::Implementation::give_to_fluid() {
-  grid.scatter(nodes, node_impulse, displaced);
-  Vec3 sum = Vec3::Zero();
-  for (const Vec3& p : node_impulse) sum += p;
-  on_fluid += sum;
-  fluid.add_impulse(node_impulse);
-  void_fraction.assign(nodes.count(), 1.0);
-  for (std::size_t i = 0; i < nodes.count(); ++i) {
-    if (displaced[i] <= 0 || nodes.open_volume[i] <= 0) continue;
-    void_fraction[i] = std::max(least_void_fraction, 1 - displaced[i] / nodes.open_volume[i]);
-    least_void = std::min(least_void, void_fraction[i]);
-  }
+  grid.scatter(nodes, to_nodes);
+  on_fluid += parallel_sum<Vec3>(
+      nodes.count(), [&](std::size_t i) { return to_nodes.impulse[i]; }, Vec3::Zero());
+  fluid.add_impulse(to_nodes.impulse);
+  void_fraction.resize(nodes.count());
+  constexpr std::size_t chunk = 1024;
+  std::vector<double> least((nodes.count() + chunk - 1) / chunk, 1.0);
+  parallel_chunks(nodes.count(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      void_fraction[i] = 1;
+      if (to_nodes.displaced[i] > 0 && nodes.open_volume[i] > 0)
+        void_fraction[i] = std::max(least_void_fraction, 1 - to_nodes.displaced[i] / nodes.open_volume[i]);
+      least[c] = std::min(least[c], void_fraction[i]);
+    }
+  });
+  for (const double one : least) least_void = std::min(least_void, one);
   fluid.set_void_fraction(void_fraction);
+}
+
+void Coupling::Implementation::filter_acceleration(double dt) {
+  const double tau = config.filter_time_factor * fluid.spacing() / fluid.limits().sound_speed;
+  const double share = tau > 0 ? -std::expm1(-dt / tau) : 1.0;
+  parallel_for(filtered.size(), [&](std::size_t r) {
+    const RockOnGrid& rock = on_grid[r];
+    if (rock.wetted <= 0) {
+      filtered[r] = Vec3::Zero();
+      return;
+    }
+    const CouplingLevel& level = grid.level(rock.level);
+    decltype(CouplingLevel::Acceleration::lanes) mean{};
+    for (std::size_t c = 0; c < 8; ++c)
+      mean += rock.place.weight[c] * level.acceleration[static_cast<std::size_t>(rock.place.node[c])].lanes;
+    filtered[r] += share * (Vec3(mean[0], mean[1], mean[2]) - gravity - filtered[r]);
+  });
 }
 
 Coupling::Coupling(const CouplingConfig& config, const Domain& domain, const Vec3& gravity, DemSystem& rocks,
@@ -287,54 +301,27 @@ void Coupling::solids_to_grid() {
 
 void Coupling::drag(double dt) {
   Implementation& c = *implementation_;
-  const std::size_t count = c.rocks.rocks().count();
   c.fluid.read_nodes(c.nodes);
   c.grid.gather(c.nodes);
   c.table.set(c.nodes);
-  c.find_wetted();
-  c.evaluate_drag(dt);
+  c.meet_water(dt);
+  if (c.config.mode == CouplingMode::two_way) c.add_to_nodes(dt);
   c.solve_nodes();
   c.share_impulses(dt);
-  c.evaluate_buoyancy(dt);
   if (c.config.mode == CouplingMode::two_way) c.give_to_fluid();
-  c.force.resize(count);
-  c.torque.assign(count, Vec3::Zero());
-  for (std::size_t r = 0; r < count; ++r) {
-    c.force[r] = c.drag[r] + c.buoyancy[r];
-    c.on_rocks += dt * c.force[r];
-  }
   c.rocks.set_fluid_force(c.force, c.torque);
   c.rocks.add_wet_dose(c.wetted, dt);
 }
 
 void Coupling::fluid_to_grid(double dt) {
   Implementation& c = *implementation_;
-  const Rocks& all = c.rocks.rocks();
   c.fluid.read_accelerations(c.node_acceleration);
+  // Drag moves the fluid without a gradient of pressure.
+  if (c.config.mode == CouplingMode::two_way)
+    parallel_for(c.nodes.count(),
+                 [&](std::size_t i) { c.node_acceleration[i] -= c.to_nodes.change_by_drag[i] / dt; });
   c.grid.gather_acceleration(c.nodes, c.node_acceleration);
-  const double tau = c.config.filter_time_factor * c.fluid.spacing() / c.fluid.limits().sound_speed;
-  const double share = tau > 0 ? -std::expm1(-dt / tau) : 1.0;
-  std::vector<std::uint64_t> id;
-  std::vector<Vec3> lift;
-  FindById earlier(c.filter_id);
-  for (std::size_t r = 0; r < all.count() && r < c.on_grid.size(); ++r) {
-    const RockOnGrid& place = c.on_grid[r];
-    if (place.wetted <= 0) continue;
-    const CouplingLevel& level = c.grid.level(place.level);
-    double mass = 0;
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t k = 0; k < 8; ++k) {
-      const auto n = static_cast<std::size_t>(place.weights.node[k]);
-      mass += place.weights.weight[k] * level.mass[n];
-      sum += place.weights.weight[k] * level.acceleration[n];
-    }
-    const Vec3 now = sum / mass - c.gravity;
-    const auto known = earlier.find(all.id[r]);
-    id.push_back(all.id[r]);
-    lift.push_back(known ? Vec3(c.filtered[*known] + share * (now - c.filtered[*known])) : Vec3(share * now));
-  }
-  c.filter_id = std::move(id);
-  c.filtered = std::move(lift);
+  c.filter_acceleration(dt);
 }
 
 const std::vector<double>& Coupling::wetted_fraction() const {

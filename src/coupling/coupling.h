@@ -15,9 +15,11 @@
 ///   impulse on r from n = b w (u' - v_r), its opposite on n
 /// so that no node is overdrawn, nothing overshoots, and the third law holds to rounding.
 ///
-/// Buoyancy is s V rho (Du/Dt - g), s the wetted fraction, low-passed: Archimedes in still water,
-/// nothing in free fall. The fluid carries the pressure gradient of the whole space and gives the
-/// rocks' share back through this impulse. No torque and no added mass in this range.
+/// Buoyancy is s V rho (Du/Dt - g - f), s the wetted fraction, f what drag does to the fluid [m/s2],
+/// low-passed: that is -s V grad p of model A, Archimedes in still water, nothing in free fall, and the
+/// weight of water and rock together in a suspension that neither rises nor falls. The fluid carries the
+/// pressure gradient of the whole space and gives the rocks' share back through this impulse. No torque and
+/// no added mass in this range.
 
 #include <memory>
 

@@ -38,28 +38,56 @@ CouplingGrid::CouplingGrid(const Domain& domain, double fluid_spacing, double na
       level(l).nodes[k] = axis.nodes;
     }
   }
-  coarsest_ = level_count() - 1;
+  coarsest_ = count - 1;
   finest_ = level_for(narrowest);
   coarsest_ = level_for(widest);
   for (int l = finest_; l <= coarsest_; ++l) make(l);
+  colour_slabs();
   for (int l = finest_; l < coarsest_; ++l)
-    for (std::size_t n = 0; n < level(l).mass.size(); ++n)
+    for (std::size_t n = 0; n < level(l).fluid.size(); ++n)
       level(l).up.push_back(weights(l + 1, place_of(l, static_cast<int>(n))));
+  of_level_.resize(levels_.size());
 }
 
 void CouplingGrid::make(int l) {
   CouplingLevel& level = this->level(l);
   const auto n = static_cast<std::size_t>(level.nodes.cast<long>().prod());
-  level.solids.assign(n, 0);
-  level.mass.assign(n, 0);
-  level.momentum.assign(n, Vec3::Zero());
-  level.density.assign(n, 0);
-  level.viscosity.assign(n, 0);
-  level.acceleration.assign(n, Vec3::Zero());
-  level.displaced.assign(n, 0);
-  level.impulse.assign(n, Vec3::Zero());
-  level.drag_sum.assign(n, 0);
-  level.drag_rock_momentum.assign(n, Vec3::Zero());
+  level.per_spacing = level.spacing.cwiseInverse();
+  level.fluid.assign(n, {});
+  level.rock.assign(n, {});
+  level.acceleration.assign(n, {});
+  for (std::size_t i = 0; i < n; ++i) {
+    const int node = static_cast<int>(i);
+    const int index[3] = {node % level.nodes.x(), (node / level.nodes.x()) % level.nodes.y(),
+                          node / (level.nodes.x() * level.nodes.y())};
+    double volume = level.cell_volume();
+    for (int k = 0; k < 3; ++k)
+      if (!domain_.periodic(k) && (index[k] == 0 || index[k] == level.nodes[k] - 1)) volume *= 0.5;
+    level.fluid[i].lanes[fluid_lane::per_volume] = 1 / volume;
+  }
+}
+
+int CouplingGrid::slabs_of(int l) const {
+  const CouplingLevel& level = this->level(l);
+  return domain_.periodic(level.slab_axis) ? level.nodes[level.slab_axis] : level.nodes[level.slab_axis] - 1;
+}
+
+// Even slabs, odd slabs, and the last of an odd number round a periodic axis, which touches both.
+void CouplingGrid::colour_slabs() {
+  colours_.resize(3);
+  int next = 0;
+  for (int l = finest_; l <= coarsest_; ++l) {
+    CouplingLevel& level = this->level(l);
+    level.nodes.maxCoeff(&level.slab_axis);
+    level.first_slab = next;
+    const int slabs = slabs_of(l);
+    for (int s = 0; s < slabs; ++s) {
+      const bool closes = domain_.periodic(level.slab_axis) && slabs % 2 == 1 && s == slabs - 1;
+      colours_[closes ? 2 : static_cast<std::size_t>(s % 2)].push_back(next++);
+    }
+  }
+  wet_.resize(static_cast<std::size_t>(next));
+  rocky_.resize(static_cast<std::size_t>(next));
 }
 
 int CouplingGrid::level_for(double width) const {
@@ -77,140 +105,214 @@ Vec3 CouplingGrid::place_of(int l, int node) const {
 
 LevelWeights CouplingGrid::weights(int l, const Vec3& x) const {
   const CouplingLevel& level = this->level(l);
-  int low[3], high[3];
-  double share[3];  // of the high node
+  int index[3][2];
+  double share[3][2];
   for (int k = 0; k < 3; ++k) {
-    const double place = (x[k] - domain_.box.lo[k]) / level.spacing[k];
+    const double place = (x[k] - domain_.box.lo[k]) * level.per_spacing[k];
+    const double floor = std::floor(place);
     const int n = level.nodes[k];
+    int low = static_cast<int>(floor), high;
+    double upper;
     if (domain_.periodic(k)) {
-      const double floor = std::floor(place);
-      low[k] = ((static_cast<int>(floor) % n) + n) % n;
-      high[k] = (low[k] + 1) % n;
-      share[k] = place - floor;
+      while (low < 0) low += n;
+      while (low >= n) low -= n;
+      high = low + 1 == n ? 0 : low + 1;
+      upper = place - floor;
     } else {
-      low[k] = std::clamp(static_cast<int>(std::floor(place)), 0, std::max(0, n - 2));
-      high[k] = std::min(low[k] + 1, n - 1);
-      share[k] = std::clamp(place - low[k], 0.0, 1.0);
+      low = std::clamp(low, 0, n - 2);
+      high = low + 1;
+      upper = std::clamp(place - low, 0.0, 1.0);
     }
+    index[k][0] = low;
+    index[k][1] = high;
+    share[k][0] = 1 - upper;
+    share[k][1] = upper;
   }
   LevelWeights out;
-  for (int c = 0; c < 8; ++c) {
-    int index[3];
-    double weight = 1;
-    for (int k = 0; k < 3; ++k) {
-      const bool upper = (c >> k) & 1;
-      index[k] = upper ? high[k] : low[k];
-      weight *= upper ? share[k] : 1 - share[k];
+  out.slab = level.first_slab + index[level.slab_axis][0];
+  const int stride_y = level.nodes.x(), stride_z = level.nodes.x() * level.nodes.y();
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t j = 0; j < 2; ++j) {
+      const int row = stride_y * index[1][j] + stride_z * index[2][k];
+      const double of_row = share[1][j] * share[2][k];
+      const std::size_t c = 4 * k + 2 * j;
+      out.node[c] = row + index[0][0];
+      out.node[c + 1] = row + index[0][1];
+      out.weight[c] = share[0][0] * of_row;
+      out.weight[c + 1] = share[0][1] * of_row;
     }
-    const auto i = static_cast<std::size_t>(c);
-    out.node[i] = index[0] + level.nodes.x() * (index[1] + level.nodes.y() * index[2]);
-    out.weight[i] = weight;
-  }
   return out;
 }
 
 void CouplingGrid::clear_solids() {
-  for (CouplingLevel& level : levels_) std::fill(level.solids.begin(), level.solids.end(), 0.0);
+  for (int l = finest_; l <= coarsest_; ++l) {
+    CouplingLevel& level = this->level(l);
+    parallel_for(
+        static_cast<std::size_t>(slabs_of(l)),
+        [&](std::size_t s) {
+          std::vector<int>& nodes = rocky_[static_cast<std::size_t>(level.first_slab) + s];
+          for (const int n : nodes) level.fluid_at(n)[fluid_lane::solids] = 0;
+          nodes.clear();
+        },
+        1);
+  }
+}
+
+void CouplingGrid::add_solids(int l, const LevelWeights& place, double volume) {
+  CouplingLevel& level = this->level(l);
+  for (std::size_t c = 0; c < 8; ++c) {
+    if (place.weight[c] <= 0) continue;
+    double solids = level.fluid_at(place.node[c])[fluid_lane::solids];
+    if (solids == 0) rocky_[static_cast<std::size_t>(place.slab)].push_back(place.node[c]);
+    solids += place.weight[c] * volume;
+    level.fluid_at(place.node[c])[fluid_lane::solids] = solids;
+  }
+}
+
+void CouplingGrid::clear_fluid() {
+  for (int l = finest_; l <= coarsest_; ++l) {
+    CouplingLevel& level = this->level(l);
+    parallel_for(
+        static_cast<std::size_t>(slabs_of(l)),
+        [&](std::size_t s) {
+          std::vector<int>& nodes = wet_[static_cast<std::size_t>(level.first_slab) + s];
+          for (const int n : nodes) {
+            NodeLanes& sums = level.fluid_at(n);
+            NodeLanes kept{};
+            kept[fluid_lane::solids] = sums[fluid_lane::solids];
+            kept[fluid_lane::per_volume] = sums[fluid_lane::per_volume];
+            sums = kept;
+            level.rock_at(n) = NodeLanes{};
+            level.acceleration[static_cast<std::size_t>(n)] = {};
+          }
+          nodes.clear();
+        },
+        1);
+  }
+}
+
+void CouplingGrid::list_wet(int l) {
+  CouplingLevel& level = this->level(l);
+  level.wet.clear();
+  for (int s = 0; s < slabs_of(l); ++s) {
+    const std::vector<int>& nodes = wet_[static_cast<std::size_t>(level.first_slab + s)];
+    level.wet.insert(level.wet.end(), nodes.begin(), nodes.end());
+  }
 }
 
 void CouplingGrid::gather(const FluidNodes& nodes) {
-  for (CouplingLevel& level : levels_) {
-    for (const int node : level.wet) {
-      const auto n = static_cast<std::size_t>(node);
-      level.mass[n] = level.density[n] = level.viscosity[n] = level.displaced[n] = level.drag_sum[n] = 0;
-      level.momentum[n] = level.acceleration[n] = level.impulse[n] = level.drag_rock_momentum[n] =
-          Vec3::Zero();
-    }
-    level.wet.clear();
-  }
-  of_fluid_.resize(nodes.count());
-  parallel_for(nodes.count(), [&](std::size_t i) { of_fluid_[i] = weights(finest_, nodes.x[i]); });
-
-  // Sums in one order, whatever the threads: nodes are few beside points.
-  CouplingLevel& finest = level(finest_);
-  for (std::size_t i = 0; i < nodes.count(); ++i)
+  clear_fluid();
+  const auto add = [&](CouplingLevel& level, std::size_t slab, const LevelWeights& place, NodeLanes sums) {
     for (std::size_t c = 0; c < 8; ++c) {
-      const double m = of_fluid_[i].weight[c] * nodes.mass[i];
-      if (m <= 0) continue;
-      const auto n = static_cast<std::size_t>(of_fluid_[i].node[c]);
-      if (finest.mass[n] == 0) finest.wet.push_back(of_fluid_[i].node[c]);
-      finest.mass[n] += m;
-      finest.momentum[n] += m * nodes.v[i];
-      finest.density[n] += m * nodes.density[i];
-      finest.viscosity[n] += m * nodes.viscosity[i];
+      if (place.weight[c] <= 0) continue;
+      NodeLanes& to = level.fluid_at(place.node[c]);
+      if (to[fluid_lane::mass] == 0) wet_[slab].push_back(place.node[c]);
+      to += place.weight[c] * sums;
     }
+  };
+
+  CouplingLevel& finest = level(finest_);
+  of_fluid_.sort(nodes.count(), slab_count(),
+                 [&](std::size_t i) { return nodes.mass[i] > 0 ? weights(finest_, nodes.x[i]).slab : -1; });
+  each_slab(of_fluid_, [&](std::size_t slab, std::span<const std::uint32_t> items) {
+    for (const std::uint32_t i : items) {
+      const Vec3& v = nodes.v[i];
+      const NodeLanes of_one{1, v.x(), v.y(), v.z(), nodes.density[i], nodes.viscosity[i], 0, 0};
+      add(finest, slab, weights(finest_, nodes.x[i]), nodes.mass[i] * of_one);
+    }
+  });
+  list_wet(finest_);
+
   for (int l = finest_; l < coarsest_; ++l) {
     const CouplingLevel& fine = level(l);
-    CouplingLevel& coarse = level(l + 1);
-    for (const int node : fine.wet) {
-      const auto f = static_cast<std::size_t>(node);
-      for (std::size_t c = 0; c < 8; ++c) {
-        const double w = fine.up[f].weight[c];
-        if (w <= 0) continue;
-        const auto n = static_cast<std::size_t>(fine.up[f].node[c]);
-        if (coarse.mass[n] == 0) coarse.wet.push_back(fine.up[f].node[c]);
-        coarse.mass[n] += w * fine.mass[f];
-        coarse.momentum[n] += w * fine.momentum[f];
-        coarse.density[n] += w * fine.density[f];
-        coarse.viscosity[n] += w * fine.viscosity[f];
+    SlabOrder& order = of_level_[static_cast<std::size_t>(l)];
+    order.sort(fine.wet.size(), slab_count(),
+               [&](std::size_t i) { return fine.up[static_cast<std::size_t>(fine.wet[i])].slab; });
+    each_slab(order, [&](std::size_t slab, std::span<const std::uint32_t> items) {
+      for (const std::uint32_t i : items) {
+        NodeLanes sums = fine.fluid_at(fine.wet[i]);
+        sums[fluid_lane::solids] = sums[fluid_lane::per_volume] = 0;
+        add(level(l + 1), slab, fine.up[static_cast<std::size_t>(fine.wet[i])], sums);
       }
-    }
+    });
+    list_wet(l + 1);
   }
 }
 
 void CouplingGrid::gather_acceleration(const FluidNodes& nodes, const std::vector<Vec3>& acceleration) {
-  CouplingLevel& finest = level(finest_);
-  for (std::size_t i = 0; i < nodes.count(); ++i)
+  const auto add = [&](CouplingLevel& level, const LevelWeights& place, auto sums) {
     for (std::size_t c = 0; c < 8; ++c)
-      finest.acceleration[static_cast<std::size_t>(of_fluid_[i].node[c])] +=
-          of_fluid_[i].weight[c] * nodes.mass[i] * acceleration[i];
+      if (place.weight[c] > 0)
+        level.acceleration[static_cast<std::size_t>(place.node[c])].lanes += place.weight[c] * sums;
+  };
+  using Lanes = decltype(CouplingLevel::Acceleration::lanes);
+  each_slab(of_fluid_, [&](std::size_t, std::span<const std::uint32_t> items) {
+    for (const std::uint32_t i : items) {
+      const Vec3 sum = nodes.mass[i] * acceleration[i];
+      add(level(finest_), weights(finest_, nodes.x[i]), Lanes{sum.x(), sum.y(), sum.z(), 0});
+    }
+  });
   for (int l = finest_; l < coarsest_; ++l) {
     const CouplingLevel& fine = level(l);
-    for (const int node : fine.wet) {
-      const auto f = static_cast<std::size_t>(node);
-      for (std::size_t c = 0; c < 8; ++c)
-        level(l + 1).acceleration[static_cast<std::size_t>(fine.up[f].node[c])] +=
-            fine.up[f].weight[c] * fine.acceleration[f];
-    }
+    each_slab(of_level_[static_cast<std::size_t>(l)], [&](std::size_t, std::span<const std::uint32_t> items) {
+      for (const std::uint32_t i : items) {
+        const auto node = static_cast<std::size_t>(fine.wet[i]);
+        add(level(l + 1), fine.up[node], fine.acceleration[node].lanes);
+      }
+    });
+  }
+  for (int l = finest_; l <= coarsest_; ++l) {
+    CouplingLevel& level = this->level(l);
+    parallel_for(level.wet.size(), [&](std::size_t i) {
+      const int node = level.wet[i];
+      level.acceleration[static_cast<std::size_t>(node)].lanes /= level.fluid_at(node)[fluid_lane::mass];
+    });
   }
 }
 
-void CouplingGrid::scatter(const FluidNodes& nodes, std::vector<Vec3>& impulse,
-                           std::vector<double>& displaced) {
+void CouplingGrid::scatter(const FluidNodes& nodes, FromRocks& out) {
   // Coarse to fine, then to the fluid's nodes, each in proportion to mass.
-  for (int l = coarsest_ - 1; l >= finest_; --l) {
-    CouplingLevel& fine = level(l);
-    const CouplingLevel& coarse = level(l + 1);
-    for (const int node : fine.wet) {
-      const auto f = static_cast<std::size_t>(node);
-      for (std::size_t c = 0; c < 8; ++c) {
-        const auto n = static_cast<std::size_t>(fine.up[f].node[c]);
-        if (coarse.mass[n] <= 0) continue;
-        const double share = fine.up[f].weight[c] * fine.mass[f] / coarse.mass[n];
-        fine.impulse[f] += share * coarse.impulse[n];
-        fine.displaced[f] += share * coarse.displaced[n];
-      }
-    }
+  const auto from = [](const CouplingLevel& level, const LevelWeights& place) {
+    NodeLanes per_mass{};
+    for (std::size_t c = 0; c < 8; ++c) per_mass += place.weight[c] * level.rock_at(place.node[c]);
+    return per_mass;
+  };
+  for (int l = coarsest_; l >= finest_; --l) {
+    CouplingLevel& level = this->level(l);
+    parallel_for(level.wet.size(), [&](std::size_t i) {
+      const int node = level.wet[i];
+      const NodeLanes& fluid = level.fluid_at(node);
+      NodeLanes& per_mass = level.rock_at(node);
+      const NodeLanes solved = per_mass;
+      per_mass /= fluid[fluid_lane::mass];
+      for (int k = 0; k < 3; ++k)  // what drag changed: u' - u
+        per_mass[rock_lane::velocity + k] =
+            solved[rock_lane::velocity + k] - fluid[fluid_lane::momentum + k] / fluid[fluid_lane::mass];
+      if (l < coarsest_) per_mass += from(this->level(l + 1), level.up[static_cast<std::size_t>(node)]);
+    });
   }
-  impulse.assign(nodes.count(), Vec3::Zero());
-  displaced.assign(nodes.count(), 0.0);
+  out.impulse.resize(nodes.count());
+  out.change_by_drag.resize(nodes.count());
+  out.displaced.resize(nodes.count());
   const CouplingLevel& finest = level(finest_);
   parallel_for(nodes.count(), [&](std::size_t i) {
-    for (std::size_t c = 0; c < 8; ++c) {
-      const auto n = static_cast<std::size_t>(of_fluid_[i].node[c]);
-      if (finest.mass[n] <= 0) continue;
-      const double share = of_fluid_[i].weight[c] * nodes.mass[i] / finest.mass[n];
-      impulse[i] += share * finest.impulse[n];
-      displaced[i] += share * finest.displaced[n];
-    }
+    const NodeLanes per_mass = from(finest, weights(finest_, nodes.x[i]));
+    constexpr int p = rock_lane::impulse, v = rock_lane::velocity;
+    out.impulse[i] = nodes.mass[i] * Vec3(per_mass[p], per_mass[p + 1], per_mass[p + 2]);
+    out.change_by_drag[i] = {per_mass[v], per_mass[v + 1], per_mass[v + 2]};
+    out.displaced[i] = nodes.mass[i] * per_mass[rock_lane::displaced];
   });
 }
 
 std::size_t CouplingGrid::memory_bytes() const {
-  std::size_t bytes = of_fluid_.capacity() * sizeof(LevelWeights);
+  std::size_t bytes = of_fluid_.memory_bytes();
+  for (const SlabOrder& order : of_level_) bytes += order.memory_bytes();
   for (const CouplingLevel& level : levels_)
-    bytes += level.mass.capacity() * (6 * sizeof(double) + 4 * sizeof(Vec3)) +
-             level.up.capacity() * sizeof(LevelWeights);
+    bytes +=
+        level.fluid.capacity() * (2 * sizeof(CouplingLevel::Sums) + sizeof(CouplingLevel::Acceleration)) +
+        level.up.capacity() * sizeof(LevelWeights) + level.wet.capacity() * sizeof(int);
+  for (const std::vector<std::vector<int>>* lists : {&wet_, &rocky_})
+    for (const std::vector<int>& list : *lists) bytes += list.capacity() * sizeof(int);
   return bytes;
 }
 

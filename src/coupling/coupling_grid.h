@@ -5,13 +5,16 @@
 ///
 /// Fluid nodes are averaged onto the finest level in use, that one on to the next coarser one in use, and so
 /// on, each with trilinear weights. What a level's node gives back goes down the same way, in proportion
-/// to mass: sums are exact in both directions. Only nodes that fluid reaches are visited or cleared.
+/// to mass: sums are exact in both directions. Only nodes that fluid or rock reaches are visited or cleared.
+///
+/// Whoever adds to nodes goes through each_slab: threads work on slabs that do not meet.
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "base/domain.h"
+#include "coupling/slab_order.h"
 #include "fluid/fluid_system.h"
 
 namespace sluice {
@@ -20,26 +23,54 @@ namespace sluice {
 struct LevelWeights {
   std::array<int, 8> node{};
   std::array<double, 8> weight{};
+  int slab = 0;  ///< of the cell, counted over all levels
 };
+
+/// Eight sums of a node, one cache line.
+using NodeLanes = double __attribute__((vector_size(64)));
+
+/// Fluid and solids: sums of mass, momentum, mass x density, mass x viscosity; volume of rock, wherever water
+/// is or not; 1 / volume of the node inside the domain.
+namespace fluid_lane {
+inline constexpr int mass = 0, momentum = 1, density = 4, viscosity = 5, solids = 6, per_volume = 7;
+}
+/// Of wet rocks: sum of b w [kg], of b w v_rock [kg m/s] (the common velocity u' once nodes are solved, u' -
+/// u in scatter); impulse to be given to the fluid [N s] and wetted volume of rock [m3], per mass of fluid in
+/// scatter.
+namespace rock_lane {
+inline constexpr int take_up = 0, velocity = 1, impulse = 4, displaced = 7;
+}
 
 /// Sums at the nodes of one level; arrays of #nodes.
 struct CouplingLevel {
-  Vec3 spacing = Vec3::Zero();           ///< [m]
-  Vec3i nodes = Vec3i::Zero();           ///< per axis
-  std::vector<double> solids;            ///< volume of rock, wherever water is or not [m3]
-  std::vector<double> mass;              ///< of fluid [kg]
-  std::vector<Vec3> momentum;            ///< of fluid [kg m/s]
-  std::vector<double> density;           ///< mass-weighted sum [kg2/m3]
-  std::vector<double> viscosity;         ///< mass-weighted sum [kg Pa s]
-  std::vector<Vec3> acceleration;        ///< mass-weighted sum of Du/Dt [kg m/s2]
-  std::vector<double> displaced;         ///< wetted volume of rock [m3]
-  std::vector<Vec3> impulse;             ///< to be given to the fluid [N s]
-  std::vector<double> drag_sum;          ///< sum of b w [kg]
-  std::vector<Vec3> drag_rock_momentum;  ///< sum of b w v_rock [kg m/s]
-  std::vector<int> wet;                  ///< nodes with fluid, in the order in which it reached them
-  std::vector<LevelWeights> up;          ///< of each of its nodes on the next coarser level in use
+  struct alignas(64) Sums {
+    NodeLanes lanes{};
+  };
+  struct alignas(32) Acceleration {
+    double __attribute__((vector_size(32))) lanes{};
+  };
+  Vec3 spacing = Vec3::Zero();  ///< [m]
+  Vec3 per_spacing = Vec3::Zero();
+  Vec3i nodes = Vec3i::Zero();             ///< per axis
+  int first_slab = 0, slab_axis = 0;       ///< slabs of cells stand across the longest axis
+  std::vector<Sums> fluid;                 ///< fluid_lane
+  std::vector<Sums> rock;                  ///< rock_lane; zero where no fluid is
+  std::vector<Acceleration> acceleration;  ///< Du/Dt, mass-weighted mean [m/s2]
+  std::vector<int> wet;                    ///< nodes with fluid, slab by slab
+  std::vector<LevelWeights> up;            ///< of each of its nodes on the next coarser level in use
 
   double cell_volume() const { return spacing.prod(); }
+  NodeLanes& fluid_at(int node) { return fluid[static_cast<std::size_t>(node)].lanes; }
+  const NodeLanes& fluid_at(int node) const { return fluid[static_cast<std::size_t>(node)].lanes; }
+  NodeLanes& rock_at(int node) { return rock[static_cast<std::size_t>(node)].lanes; }
+  const NodeLanes& rock_at(int node) const { return rock[static_cast<std::size_t>(node)].lanes; }
+};
+
+/// What rocks do to the fluid's nodes; arrays of #nodes.
+struct FromRocks {
+  std::vector<Vec3> impulse;         ///< drag and buoyancy [N s]
+  std::vector<Vec3> change_by_drag;  ///< of velocity, by drag alone [m/s]
+  std::vector<double> displaced;     ///< wetted volume [m3]
 };
 
 class CouplingGrid {
@@ -52,29 +83,49 @@ class CouplingGrid {
   int level_for(double width) const;
   CouplingLevel& level(int l) { return levels_[static_cast<std::size_t>(l)]; }
   const CouplingLevel& level(int l) const { return levels_[static_cast<std::size_t>(l)]; }
-  bool in_use(int l) const { return !level(l).mass.empty(); }
-  int level_count() const { return static_cast<int>(levels_.size()); }
+  int finest() const { return finest_; }      ///< level in use
+  int coarsest() const { return coarsest_; }  ///< level in use
   LevelWeights weights(int l, const Vec3& x) const;
   double kernel_width(int l) const { return 2 * level(l).spacing.minCoeff(); }  ///< [m]
 
+  std::size_t slab_count() const { return wet_.size(); }
+  /// Calls body(slab, items) for each slab of all levels, side by side where they do not meet.
+  template <class Body>
+  void each_slab(const SlabOrder& order, const Body& body) const {
+    for (const std::vector<int>& colour : colours_)
+      parallel_chunks(colour.size(), 1, [&](std::size_t c, std::size_t, std::size_t) {
+        const auto s = static_cast<std::size_t>(colour[c]);
+        if (!order.slab(s).empty()) body(s, order.slab(s));
+      });
+  }
+
   void clear_solids();
+  /// Adds a rock's volume [m3] at a place of level l. To be called within each_slab.
+  void add_solids(int l, const LevelWeights& place, double volume);
   /// Averages the fluid's nodes on to every level in use; what the levels held of the fluid is dropped.
   void gather(const FluidNodes& nodes);
   /// The same nodes' acceleration. @pre gather was called with these nodes
   void gather_acceleration(const FluidNodes& nodes, const std::vector<Vec3>& acceleration);
-  /// Impulse [N s] and displaced volume [m3] of each fluid node from all levels. @pre as above
-  void scatter(const FluidNodes& nodes, std::vector<Vec3>& impulse, std::vector<double>& displaced);
+  /// What the rocks of all levels do to each fluid node. @pre as above, and nodes are solved
+  void scatter(const FluidNodes& nodes, FromRocks& out);
   std::size_t memory_bytes() const;
 
  private:
   void make(int l);
+  void clear_fluid();
+  void list_wet(int l);
+  void colour_slabs();
+  int slabs_of(int l) const;
   Vec3 place_of(int l, int node) const;
 
   Domain domain_;
   double fluid_spacing_;
   int finest_ = 0, coarsest_ = 0;  ///< levels in use
   std::vector<CouplingLevel> levels_;
-  std::vector<LevelWeights> of_fluid_;  ///< of each fluid node on the finest level in use
+  std::vector<std::vector<int>> colours_;      ///< slabs that do not meet
+  std::vector<std::vector<int>> wet_, rocky_;  ///< nodes that a slab was the first to reach
+  SlabOrder of_fluid_;                         ///< fluid nodes on the finest level in use
+  std::vector<SlabOrder> of_level_;            ///< wet nodes of a level on the next coarser one
 };
 
 }  // namespace sluice

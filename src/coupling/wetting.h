@@ -9,33 +9,38 @@
 
 namespace sluice {
 
-/// Finds the fluid node nearest to a place: a dense table over the domain at the fluid's spacing.
-class NodeTable {
- public:
-  NodeTable(const Domain& domain, double spacing);
-  void set(const FluidNodes& nodes);
-  int nearest(const Vec3& x) const;  ///< index of a node with mass, or -1
-  std::size_t memory_bytes() const {
-    return table_.capacity() * sizeof(int) + filled_.capacity() * sizeof(int);
-  }
-
- private:
-  int slot(const Vec3& x) const;
-  Domain domain_;
-  double spacing_;
-  Vec3 origin_ = Vec3::Zero();
-  Vec3i cells_ = Vec3i::Zero();
-  std::vector<int> table_, filled_;
-};
-
-/// Points inside each shape of the table, in units of the size, evenly spread by volume.
-std::vector<std::vector<Vec3>> wetting_points(const std::vector<RockShape>& shapes, int per_rock);
-
 /// Below this fill a node wets nothing: the tail of the fluid's kernel above a level surface.
 inline constexpr double dry_fill = 0.05;
 
-/// Mean over the rock's points of min(1, fill) [0..1].
-double wetted_fraction(const DemSystem& rocks, std::size_t rock, const std::vector<Vec3>& points,
-                       const NodeTable& table, const FluidNodes& nodes);
+/// Points inside a shape, in units of the size, evenly spread by volume.
+struct WettingPoints {
+  std::vector<float> x, y, z;
+  std::size_t count() const { return x.size(); }
+};
+std::vector<WettingPoints> wetting_points(const std::vector<RockShape>& shapes, int per_rock);
+
+/// How much each cell around a fluid node wets: a dense table over the domain at the fluid's spacing, so that
+/// a rock's points are looked up side by side.
+class FillTable {
+ public:
+  FillTable(const Domain& domain, double spacing);
+  void set(const FluidNodes& nodes);
+  /// Mean over the points of what their cells wet, min(1, fill) [0..1].
+  /// @param turn  body to space, times the rock's size [m];  reach  bounding radius [m]
+  double wetted_fraction(const WettingPoints& points, const Vec3& centre, const Mat3& turn,
+                         double reach) const;
+  std::size_t memory_bytes() const {
+    return table_.capacity() * sizeof(float) + filled_.capacity() * sizeof(int);
+  }
+
+ private:
+  int slot(int i, int j, int k) const;  ///< -1 outside
+  Domain domain_;
+  double spacing_;
+  Vec3 origin_ = Vec3::Zero();
+  Vec3i cells_ = Vec3i::Zero(), period_ = Vec3i::Zero();
+  std::vector<float> table_;
+  std::vector<int> filled_;
+};
 
 }  // namespace sluice

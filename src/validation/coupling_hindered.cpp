@@ -13,11 +13,7 @@ namespace sluice {
 void CouplingHindered::keys(Schema& s) {
   s.number("spacing_diameters", spacing_diameters,
            {.above = 0, .doc = "grid spacing over the rocks' diameter"});
-  s.choice("drag", drag,
-           {{"schiller_naumann", DragModel::schiller_naumann},
-            {"di_felice", DragModel::di_felice},
-            {"gidaspow", DragModel::gidaspow}},
-           {.doc = "law of drag"});
+  s.choice("drag", drag, drag_models, {.doc = "law of drag"});
   s.number("size", size, {.unit = "m", .above = 0, .doc = "diameter of the rocks"});
   s.number("depth", depth, {.unit = "m", .above = 0, .doc = "of the water"});
   s.number("width", width, {.unit = "m", .above = 0, .doc = "of the container, periodic"});

@@ -14,11 +14,7 @@ void CouplingSettling::keys(Schema& s) {
            {.above = 0, .doc = "grid spacing over the rock's diameter"});
   s.choice("mode", mode, {{"two_way", CouplingMode::two_way}, {"one_way", CouplingMode::one_way}},
            {.doc = "whether the water feels the rock"});
-  s.choice("drag", drag,
-           {{"schiller_naumann", DragModel::schiller_naumann},
-            {"di_felice", DragModel::di_felice},
-            {"gidaspow", DragModel::gidaspow}},
-           {.doc = "law of drag; another than the reference's is a fault"});
+  s.choice("drag", drag, drag_models, {.doc = "law of drag; another than the reference's is a fault"});
   s.number("depth", depth, {.unit = "m", .above = 0, .doc = "of the water"});
 }
 

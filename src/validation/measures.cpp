@@ -3,6 +3,7 @@
 #include "validation/analysis_mixing.h"
 #include "validation/analysis_residence.h"
 #include "validation/analysis_sizes.h"
+#include "validation/coupling_bed.h"
 #include "validation/coupling_hindered.h"
 #include "validation/coupling_settling.h"
 #include "validation/coupling_third_law.h"
@@ -65,6 +66,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"water_slot", "point", made<WaterSlot>},
       {"coupling_settling", "point", made<CouplingSettling>},
       {"coupling_hindered", "point", made<CouplingHindered>},
+      {"coupling_bed", "point", made<CouplingBed>},
       {"coupling_third_law", "point", made<CouplingThirdLaw>},
       {"emitter_flux", "sample", made<EmitterFlux>},
       {"analysis_mixing", "sample", made<AnalysisMixing>},

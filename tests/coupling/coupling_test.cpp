@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "coupling/node_fluid.h"
 
@@ -105,6 +106,31 @@ TEST(TwoWayCoupling, HandsTheSameImpulseToBothSides) {
   EXPECT_GT(scale, 1.0);
   EXPECT_LT((scene.coupling->impulse_on_rocks() + scene.coupling->impulse_on_fluid()).norm(), 1e-12 * scale);
   EXPECT_LT((scene.fluid.impulse_ - scene.coupling->impulse_on_fluid()).norm(), 1e-12 * scale);
+}
+
+TEST(TwoWayCoupling, HasTheSameBitsForAnyNumberOfThreads) {
+  const int before = thread_count();
+  std::vector<Vec3> impulses[3];
+  for (int threads : {1, 2, 3}) {
+    set_thread_count(threads);
+    Scene scene(2.0, 0.05, Vec3(0.7, -0.2, 0.3), 0.03, 2650, CouplingConfig{});
+    Random random(11);
+    for (int i = 0; i < 3000; ++i)
+      scene.add(Vec3(random.uniform(0.1, 1.9), random.uniform(0.1, 1.9), random.uniform(0.1, 1.9)),
+                random.uniform(0.0, 3.0) * random.on_sphere(), random.uniform(0.01, 0.09), i % 2);
+    std::vector<Vec3>& impulse = impulses[threads - 1];
+    for (int step = 0; step < 3; ++step) {
+      scene.exchange(1e-3);
+      impulse.insert(impulse.end(), scene.fluid.nodes_.v.begin(), scene.fluid.nodes_.v.end());
+      const std::vector<Vec3>&drag = scene.coupling->drag_force(), &lift = scene.coupling->buoyancy_force();
+      impulse.insert(impulse.end(), drag.begin(), drag.end());
+      impulse.insert(impulse.end(), lift.begin(), lift.end());
+    }
+    impulse.push_back(scene.coupling->impulse_on_fluid());
+  }
+  set_thread_count(before);
+  EXPECT_TRUE(impulses[0] == impulses[1]);
+  EXPECT_TRUE(impulses[0] == impulses[2]);
 }
 
 TEST(TwoWayCoupling, NeverOverdrawsANodeHoweverManyRocksItHas) {

@@ -95,5 +95,59 @@ TEST(Gidaspow, GivesErgunsPressureDropInAPackedBed) {
               1e-9 * drop);
 }
 
+// Rong, Dong & Yu (2013) by hand: at Re 10^1.5 the exponential is 1 and chi(0.5) = 3.975 - 0.8875.
+TEST(Rong, MatchesItsFormula) {
+  DragInput in;
+  in.diameter = 0.01;
+  in.void_fraction = 0.5;
+  in.speed = std::pow(10, 1.5) * in.viscosity / (in.density * in.void_fraction * in.diameter);
+  const double cd = std::pow(0.63 + 4.8 / std::sqrt(std::pow(10, 1.5)), 2);
+  EXPECT_NEAR(coefficient(DragModel::rong, in), cd * std::pow(0.5, 2 - 3.0875), 1e-9);
+}
+
+// Haider & Levenspiel (1989) by hand for psi 1 (A 0.18622, B 0.6529, C 0.43725, D 7185.3) and psi 0.8
+// (A 0.28077, B 0.5416, C 0.78087, D 455.80).
+TEST(HaiderLevenspiel, MatchesItsFormula) {
+  DragInput in = lone_sphere(100);
+  const double sphere = 24.0 / 100 * (1 + 0.18622 * std::pow(100, 0.6529)) + 0.43725 * 100 / (100 + 7185.3);
+  EXPECT_NEAR(coefficient(DragModel::haider_levenspiel, in), sphere, 1e-3 * sphere);
+  in.sphericity = 0.8;
+  const double a = std::exp(2.3288 - 5.16648 + 1.567104), b = 0.5416;
+  const double c = std::exp(4.905 - 11.11552 + 11.790208 - 5.2530688);
+  const double d = std::exp(1.4681 + 9.80672 - 13.268608 + 8.133376);
+  const double blunt = 0.24 * (1 + a * std::pow(100, b)) + c * 100 / (100 + d);
+  EXPECT_NEAR(coefficient(DragModel::haider_levenspiel, in), blunt, 1e-9);
+}
+
+// Hoelzer & Sommerfeld (2008) by hand: a sphere at Re 100 has 0.24 + 0.3 + 0.42; a body of psi 0.8 across the
+// flow (crosswise 0.5) has 0.08/sqrt(0.5) + 0.16/sqrt(0.8) + 0.3/0.8^0.75 + 0.42 10^(0.4 0.09691^0.2) / 0.5.
+TEST(HoelzerSommerfeld, MatchesItsFormula) {
+  DragInput in = lone_sphere(100);
+  EXPECT_NEAR(coefficient(DragModel::hoelzer_sommerfeld, in), 0.96, 1e-12);
+  in.sphericity = 0.8;
+  in.crosswise = 0.5;
+  const double expected = 0.08 / std::sqrt(0.5) + 0.16 / std::sqrt(0.8) + 0.3 / std::pow(0.8, 0.75) +
+                          0.84 * std::pow(10, 0.4 * std::pow(-std::log10(0.8), 0.2));
+  EXPECT_NEAR(coefficient(DragModel::hoelzer_sommerfeld, in), expected, 1e-12);
+}
+
+TEST(DragPerSpeed, OfEveryModelIsContinuousInSpeedAndVoidFraction) {
+  for (const auto& [word, model] : drag_models) {
+    if (model == DragModel::schiller_naumann) continue;  // its two branches meet at Re 1000 to within 1 %
+    for (double re = 1e-3; re < 1e5; re *= 1.01)
+      for (double eps : {0.4, 0.6, 0.74, 0.8, 0.86, 1.0}) {
+        DragInput in = lone_sphere(re);
+        in.void_fraction = eps;
+        in.sphericity = 0.8;
+        in.crosswise = 0.7;
+        const double here = drag_per_speed(model, in);
+        in.speed *= 1.01;
+        EXPECT_NEAR(drag_per_speed(model, in), here, 0.03 * here) << word << " Re " << re << " eps " << eps;
+        in.void_fraction *= 0.999;
+        EXPECT_NEAR(drag_per_speed(model, in), here, 0.05 * here) << word << " Re " << re << " eps " << eps;
+      }
+  }
+}
+
 }  // namespace
 }  // namespace sluice
