@@ -109,8 +109,21 @@ int Exits::exit_of(const Vec3& before, const Vec3& now, bool rock) const {
 }
 
 void Exits::collect(double t, DemSystem* rocks, FluidSystem* water) {
-  if (rocks != nullptr) collect_rocks(t, *rocks);
-  if (water != nullptr) collect_water(t, *water);
+  const bool some = !tallies_.empty();  // nobody's path is followed where there is none
+  if (rocks != nullptr) {
+    if (some) collect_rocks(t, *rocks);
+    for (const RemovedRock& r : rocks->remove_outside()) outside_.add(passage_of(t, r));
+    if (some) remember_places(rocks->rocks());
+  }
+  if (water != nullptr) {
+    if (some) collect_water(t, *water);
+    for (const RemovedPoint& p : water->remove_outside()) outside_.add(passage_of(t, p));
+  }
+}
+
+void Exits::remember_places(const Rocks& rocks) {
+  rock_before_ = rocks.x;
+  rock_before_id_ = rocks.id;
 }
 
 std::vector<Vec3> Exits::places_before(const Rocks& rocks) const {
@@ -134,9 +147,6 @@ void Exits::collect_rocks(double t, DemSystem& system) {
     for (std::size_t k = 0; k < removed.size(); ++k)
       tallies_[static_cast<std::size_t>(exit[leaving[k]])].add(passage_of(t, removed[k]));
   }
-  for (const RemovedRock& r : system.remove_outside()) outside_.add(passage_of(t, r));
-  rock_before_ = system.rocks().x;
-  rock_before_id_ = system.rocks().id;
 }
 
 void Exits::collect_water(double t, FluidSystem& water) {
@@ -162,7 +172,6 @@ void Exits::collect_water(double t, FluidSystem& water) {
       });
     tallies_[static_cast<std::size_t>(at->second)].add(passage_of(t, p));
   }
-  for (const RemovedPoint& p : water.remove_outside()) outside_.add(passage_of(t, p));
 }
 
 void Exits::exchange(StateArchive& archive) {

@@ -128,6 +128,7 @@ class Exits {
   int exit_of(const Vec3& before, const Vec3& now, bool rock) const;
   /// Centre of each rock at the last call; its present one where it was not there.
   std::vector<Vec3> places_before(const Rocks& rocks) const;
+  void remember_places(const Rocks& rocks);
 
   std::vector<ExitTally> tallies_;
   ExitTally outside_;
