@@ -120,6 +120,15 @@ std::vector<std::string> settings_of(const ExtremeConfig& config, const ExtremeS
   return all;
 }
 
+/// A message that names a file by its name alone: the page is read where its folder is not.
+std::string without_folder(std::string message, const std::filesystem::path& file) {
+  const std::string folder = file.parent_path().string() + "/";
+  for (std::size_t at = message.find(folder); folder.size() > 1 && at != std::string::npos;
+       at = message.find(folder, at))
+    message.erase(at, folder.size());
+  return message;
+}
+
 bool varies_step(const ExtremeConfig& config) {
   return std::find(config.vary.begin(), config.vary.end(), step_over_limit) != config.vary.end();
 }
@@ -172,6 +181,7 @@ ExtremeRung run_hard(const HardRun& run) {
     out.outcome = ExtremeOutcome::broken;
     out.message = e.what();
   }
+  out.message = without_folder(std::move(out.message), run.process);
   out.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }
