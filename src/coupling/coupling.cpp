@@ -47,6 +47,7 @@ struct Coupling::Implementation {
 
   void place_rocks();
   void keep_filter_with_rocks();
+  void find_saturation();
   void meet_water(double dt);
   void meet_water(std::size_t rock, double dt);
   void add_to_nodes(double dt);
@@ -68,6 +69,7 @@ struct Coupling::Implementation {
   std::vector<CrossSection> cross_sections;  // of each shape, where the drag law asks
 
   FluidNodes nodes;
+  std::vector<double> saturation;  // of the space that rocks, wet or dry, leave free at each node
   std::vector<RockOnGrid> on_grid;
   SlabOrder by_slab;
   std::vector<double> wetted;
@@ -149,6 +151,20 @@ void Coupling::Implementation::keep_filter_with_rocks() {
     if (const auto known = earlier.find(id[r])) kept[r] = filtered[*known];
   filter_id = id;
   filtered = std::move(kept);
+}
+
+// The void fraction that the fluid knows is that of the wet rocks alone, and what is wet follows from the
+// fill: on its own that has two answers where more than half is rock. All rocks together leave one.
+void Coupling::Implementation::find_saturation() {
+  if (config.mode == CouplingMode::one_way) {
+    saturation = nodes.fill;
+    return;
+  }
+  grid.solids_fraction(nodes, saturation);
+  parallel_for(nodes.count(), [&](std::size_t i) {
+    const double open = nodes.open_volume[i] * std::max(least_void_fraction, 1 - saturation[i]);
+    saturation[i] = open > 0 ? nodes.mass[i] / (nodes.density[i] * open) : 0;
+  });
 }
 
 void Coupling::Implementation::meet_water(double dt) {
@@ -303,7 +319,8 @@ void Coupling::drag(double dt) {
   Implementation& c = *implementation_;
   c.fluid.read_nodes(c.nodes);
   c.grid.gather(c.nodes);
-  c.table.set(c.nodes);
+  c.find_saturation();
+  c.table.set(c.nodes, c.saturation);
   c.meet_water(dt);
   if (c.config.mode == CouplingMode::two_way) c.add_to_nodes(dt);
   c.solve_nodes();

@@ -56,6 +56,7 @@ void CouplingGrid::make(int l) {
   level.fluid.assign(n, {});
   level.rock.assign(n, {});
   level.acceleration.assign(n, {});
+  level.packed.assign(n, 0.0);
   for (std::size_t i = 0; i < n; ++i) {
     const int node = static_cast<int>(i);
     const int index[3] = {node % level.nodes.x(), (node / level.nodes.x()) % level.nodes.y(),
@@ -239,6 +240,28 @@ void CouplingGrid::gather(const FluidNodes& nodes) {
   }
 }
 
+void CouplingGrid::solids_fraction(const FluidNodes& nodes, std::vector<double>& fraction) {
+  const auto from = [](const CouplingLevel& level, const LevelWeights& place) {
+    double sum = 0;
+    for (std::size_t c = 0; c < 8; ++c)
+      sum += place.weight[c] * level.packed[static_cast<std::size_t>(place.node[c])];
+    return sum;
+  };
+  for (int l = coarsest_; l >= finest_; --l) {
+    CouplingLevel& level = this->level(l);
+    parallel_for(level.wet.size(), [&](std::size_t i) {
+      const auto node = static_cast<std::size_t>(level.wet[i]);
+      const NodeLanes& sums = level.fluid_at(level.wet[i]);
+      level.packed[node] = sums[fluid_lane::solids] * sums[fluid_lane::per_volume];
+      if (l < coarsest_) level.packed[node] += from(this->level(l + 1), level.up[node]);
+    });
+  }
+  fraction.resize(nodes.count());
+  const CouplingLevel& finest = level(finest_);
+  parallel_for(nodes.count(),
+               [&](std::size_t i) { fraction[i] = from(finest, weights(finest_, nodes.x[i])); });
+}
+
 void CouplingGrid::gather_acceleration(const FluidNodes& nodes, const std::vector<Vec3>& acceleration) {
   const auto add = [&](CouplingLevel& level, const LevelWeights& place, auto sums) {
     for (std::size_t c = 0; c < 8; ++c)
@@ -308,9 +331,9 @@ std::size_t CouplingGrid::memory_bytes() const {
   std::size_t bytes = of_fluid_.memory_bytes();
   for (const SlabOrder& order : of_level_) bytes += order.memory_bytes();
   for (const CouplingLevel& level : levels_)
-    bytes +=
-        level.fluid.capacity() * (2 * sizeof(CouplingLevel::Sums) + sizeof(CouplingLevel::Acceleration)) +
-        level.up.capacity() * sizeof(LevelWeights) + level.wet.capacity() * sizeof(int);
+    bytes += level.fluid.capacity() *
+                 (2 * sizeof(CouplingLevel::Sums) + sizeof(CouplingLevel::Acceleration) + sizeof(double)) +
+             level.up.capacity() * sizeof(LevelWeights) + level.wet.capacity() * sizeof(int);
   for (const std::vector<std::vector<int>>* lists : {&wet_, &rocky_})
     for (const std::vector<int>& list : *lists) bytes += list.capacity() * sizeof(int);
   return bytes;

@@ -56,6 +56,7 @@ struct CouplingLevel {
   std::vector<Sums> fluid;                 ///< fluid_lane
   std::vector<Sums> rock;                  ///< rock_lane; zero where no fluid is
   std::vector<Acceleration> acceleration;  ///< Du/Dt, mass-weighted mean [m/s2]
+  std::vector<double> packed;              ///< solids fraction, of all coarser levels too, where fluid is
   std::vector<int> wet;                    ///< nodes with fluid, slab by slab
   std::vector<LevelWeights> up;            ///< of each of its nodes on the next coarser level in use
 
@@ -104,6 +105,9 @@ class CouplingGrid {
   void add_solids(int l, const LevelWeights& place, double volume);
   /// Averages the fluid's nodes on to every level in use; what the levels held of the fluid is dropped.
   void gather(const FluidNodes& nodes);
+  /// Solids fraction at each of these nodes, of all rocks, wet or dry. @pre gather was called with these
+  /// nodes
+  void solids_fraction(const FluidNodes& nodes, std::vector<double>& fraction);
   /// The same nodes' acceleration. @pre gather was called with these nodes
   void gather_acceleration(const FluidNodes& nodes, const std::vector<Vec3>& acceleration);
   /// What the rocks of all levels do to each fluid node. @pre as above, and nodes are solved

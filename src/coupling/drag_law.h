@@ -37,9 +37,8 @@ double reynolds_number(const DragInput& in);
 ///   gidaspow          Ergun (1952) below eps 0.8, Wen & Yu (1966) above, blended linearly in 0.75..0.85
 ///   rong              Rong, Dong & Yu (2013): Di Felice's form with another chi, from lattice-Boltzmann beds
 ///   haider_levenspiel   Haider & Levenspiel (1989) eq. 11, Cd of the sphericity
-///   hoelzer_sommerfeld  Hoelzer & Sommerfeld (2008) eq. 10, Cd of sphericity and crosswise sphericity, the
-///   latter
-///                       also in the first term; it gives no torque
+///   hoelzer_sommerfeld  Hoelzer & Sommerfeld (2008) eq. 10, Cd of sphericity and crosswise sphericity,
+///                       which stands in the first term as well; it gives no torque
 /// The last two are of lone rocks; among others they get Di Felice's eps^(2 - chi).
 /// Finite and positive as the speed goes to zero.
 double drag_per_speed(DragModel model, const DragInput& in);

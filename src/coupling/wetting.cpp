@@ -36,7 +36,7 @@ int FillTable::slot(int i, int j, int k) const {
   return index[0] + cells_.x() * (index[1] + cells_.y() * index[2]);
 }
 
-void FillTable::set(const FluidNodes& nodes) {
+void FillTable::set(const FluidNodes& nodes, std::span<const double> fill) {
   parallel_for(
       filled_.size(), [&](std::size_t i) { table_[static_cast<std::size_t>(filled_[i])] = 0; }, 4096);
   filled_.assign(nodes.count(), 0);
@@ -48,9 +48,8 @@ void FillTable::set(const FluidNodes& nodes) {
                            static_cast<int>(std::floor(place.z())));
         if (s < 0) return;
         filled_[i] = s;
-        const double fill = nodes.fill[i];
         table_[static_cast<std::size_t>(s)] =
-            fill > dry_fill ? static_cast<float>(std::min(1.0, fill)) : 0.0F;
+            fill[i] > dry_fill ? static_cast<float>(std::min(1.0, fill[i])) : 0.0F;
       },
       4096);
 }

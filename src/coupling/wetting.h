@@ -2,6 +2,7 @@
 /// Which share of a rock stands in water: points spread through its volume, each of which asks the
 /// fluid node next to it how full it is. A dry rock above a wet sheet has no wet point.
 
+#include <span>
 #include <vector>
 
 #include "dem/dem_system.h"
@@ -24,7 +25,8 @@ std::vector<WettingPoints> wetting_points(const std::vector<RockShape>& shapes, 
 class FillTable {
  public:
   FillTable(const Domain& domain, double spacing);
-  void set(const FluidNodes& nodes);
+  /// @param fill  of the space that is open to the fluid, #nodes
+  void set(const FluidNodes& nodes, std::span<const double> fill);
   /// Mean over the points of what their cells wet, min(1, fill) [0..1].
   /// @param turn  body to space, times the rock's size [m];  reach  bounding radius [m]
   double wetted_fraction(const WettingPoints& points, const Vec3& centre, const Mat3& turn,
