@@ -62,6 +62,13 @@ void print_steps(const Simulation& simulation) {
     const FluidStepLimits& l = water->limits();
     fmt::print("water: step {:.3e} s (from {}), sound speed {:.1f} m/s, cell {:.1f} mm, point {:.3g} l\n",
                l.step, l.governed_by, l.sound_speed, 1e3 * water->spacing(), 1e3 * water->point_volume());
+    const FluidModel& fluid = water->model();
+    if (fluid.rheology != Rheology::newtonian)
+      fmt::print(
+          "water: yields at {:.3g} Pa, then {:.3g} Pa s^n at n = {:.3g}; regularised below {:.3g} 1/s "
+          "(Papanastasiou), so at rest {:.3g} Pa s\n",
+          fluid.yield_stress, fluid.viscosity, fluid.flow_index, fluid.yield_rate,
+          largest_viscosity(fluid, 0));
   }
 }
 

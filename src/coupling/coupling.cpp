@@ -201,6 +201,9 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
   constexpr int p = fluid_lane::momentum;
   const Vec3 slip = Vec3(sums[p], sums[p + 1], sums[p + 2]) / mass - all.v[r];
   in.speed = slip.norm();
+  const FluidModel& model = fluid.model();
+  if (model.rheology != Rheology::newtonian)
+    in.viscosity = viscosity_around(model, fines_fraction(model, in.density), in.speed, in.diameter);
   const auto shape = static_cast<std::size_t>(all.shape[r]);
   in.sphericity = rocks.shapes()[shape].sphericity;
   if (!cross_sections.empty() && in.speed > 0) {

@@ -25,7 +25,7 @@ struct FluidNodes {
   std::vector<double> open_volume;  ///< space of the node that walls leave free, whatever is in it [m3]
   std::vector<double> pressure;     ///< mass-weighted [Pa]
   std::vector<double> fill;         ///< fluid volume over the space open to it, 1 = full
-  std::vector<double> viscosity;    ///< [Pa s]
+  std::vector<double> viscosity;    ///< [Pa s]; at rest, where it depends on the rate of shear
   std::vector<double> density;      ///< of the fluid itself [kg/m3]
   std::size_t count() const { return mass.size(); }
 };

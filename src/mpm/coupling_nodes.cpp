@@ -54,7 +54,7 @@ void ExplicitMpm<Real>::read_nodes(FluidNodes& out) const {
           out.open_volume[to] = static_cast<double>(open_fraction(slot, n)) * cell;
           out.pressure[to] = -density * sound_speed_ * sound_speed_ * e / (1 + e);
           out.fill[to] = static_cast<double>(node[fill]);
-          out.viscosity[to] = viscosity_of(density * (1 + e));
+          out.viscosity[to] = viscosity_of(density * (1 + e), 0);
           out.density[to] = density;
           ++to;
         }

@@ -32,12 +32,13 @@ ExplicitMpm<Real>::ExplicitMpm(const MpmConfig& config, const Domain& domain, co
     : config_(config),
       domain_(domain),
       gravity_(gravity),
-      limits_(step_limits(config, gravity, config.fluid.viscosity / config.fluid.density)),
+      limits_(step_limits(config, gravity, largest_viscosity(config.fluid, 0) / config.fluid.density)),
       sound_speed_(limits_.sound_speed),
       layout_(domain, config.spacing),
       store_(layout_),
       grid_(layout_),
-      largest_kinematic_viscosity_(config.fluid.viscosity / config.fluid.density),
+      yields_(config.fluid.rheology != Rheology::newtonian),
+      largest_kinematic_viscosity_(largest_viscosity(config.fluid, 0) / config.fluid.density),
       loads_(walls.size()) {
   bool blocks_water = false;
   for (const Wall& wall : walls.all())
@@ -82,10 +83,9 @@ std::uint64_t ExplicitMpm<Real>::add(const NewPoint& point) {
   p.x[3] = static_cast<Real>(point.J - 1.0);
   p.v[3] = static_cast<Real>(point.mass);
   p.C[0][3] = static_cast<Real>(volume);
-  const double viscosity = slurry_viscosity(fluid, phi);
-  p.C[1][3] = static_cast<Real>(viscosity);
+  p.C[1][3] = static_cast<Real>(slurry_viscosity(fluid, phi));
   p.C[2][3] = 1;
-  const double kinematic = viscosity * volume / point.mass;
+  const double kinematic = largest_viscosity(fluid, phi) * volume / point.mass;
   if (kinematic > largest_kinematic_viscosity_) {
     largest_kinematic_viscosity_ = kinematic;
     limits_ = step_limits(config_, gravity_, kinematic);

@@ -138,6 +138,7 @@ class ExplicitMpm final : public FluidSystem {
   void scatter_block(std::size_t index, ScatterScratch& scratch);
   void scatter(std::span<const Contribution> points, Node* corner) const;
   void contribute(const Point& p, Contribution& a) const;
+  Real sheared_viscosity(const Point& p) const;
   void hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
                   WallImpulses& impulses) const;
   void colour_blocks();
@@ -177,11 +178,15 @@ class ExplicitMpm final : public FluidSystem {
     return stencil < 0 ? Real(1) : static_cast<Real>(field_->open_fraction_at(stencil));
   }
   Vec3 velocity_of(const Point& p) const { return Vec3(p.v[0], p.v[1], p.v[2]); }
-  /// Of fluid at a node [Pa s]; fines are what makes it denser.
-  /// @param density  without pressure [kg/m3]
-  double viscosity_of(double density) const {
+  /// By volume; fines are what makes the fluid denser. @param density  without pressure [kg/m3]
+  double fines_at(double density) const {
+    return store_.fines.empty() ? 0.0 : fines_fraction(config_.fluid, density);
+  }
+  /// Of fluid at a node [Pa s]. @param rate  of shear [1/s]
+  double viscosity_of(double density, double rate) const {
     const FluidModel& fluid = config_.fluid;
-    return store_.fines.empty() ? fluid.viscosity : slurry_viscosity(fluid, fines_fraction(fluid, density));
+    const double phi = fines_at(density);
+    return yields_ ? apparent_viscosity(fluid, flow_curve(fluid, phi), rate) : slurry_viscosity(fluid, phi);
   }
   double fines_of(std::size_t slot) const { return store_.fines.empty() ? 0.0 : store_.fines[slot]; }
   template <class Triple>
@@ -210,6 +215,7 @@ class ExplicitMpm final : public FluidSystem {
   std::vector<WallImpulses> impulses_;  ///< per block
   std::vector<BlockReport> reports_;
   bool has_void_ = false;
+  bool yields_ = false;  ///< viscosity depends on the rate of shear
 
   std::uint64_t next_id_ = 0;
   double largest_kinematic_viscosity_ = 0;

@@ -157,7 +157,7 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, Vec3 cut_off,
   const bool pressed = node[dilation] < 0;
   const double density = volume > 0 ? m / volume : config_.fluid.density;
   const bool no_slip = config_.wall_slip == WallSlip::no_slip;
-  const double viscosity = no_slip ? viscosity_of(density * (1 + static_cast<double>(node[dilation]))) : 0.0;
+  const double rest_density = density * (1 + static_cast<double>(node[dilation]));
   Vec3 v = vector_at(node, velocity) + vector_at(node, change);
   const Vec3 before = v;
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -180,6 +180,7 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, Vec3 cut_off,
       const double cn = std::max(0.0, cut_off.dot(plane.normal));
       cut_off -= cn * plane.normal;
       const double arm = std::max(0.0, plane.distance - h * plane.normal.dot(node_offset));
+      const double viscosity = arm > 0 && cn > 0 ? viscosity_of(rest_density, sliding.norm() / arm) : 0.0;
       kept = arm > 0 ? arm / (arm + step_.dt * chi * viscosity * cn / m) : 0.0;
     } else if (config_.wall_slip == WallSlip::turbulent_film) {
       // Stress rho f/8 |u| u on the wall area that this node stands for; implicit, so never beyond rest.

@@ -176,17 +176,29 @@ class Foresight {
                         spray.speed(water.fluid.density), stated));
   }
 
+  double viscosity_of(double rate) const {
+    const FluidModel& fluid = config_.water->fluid;
+    if (fluid.rheology == Rheology::newtonian) return fluid.viscosity;
+    return apparent_viscosity(fluid, flow_curve(fluid, 0), rate);
+  }
+
   void viscosity() {
     const MpmConfig& water = *config_.water;
     const FluidStepLimits& limits = parts_.water->limits();
+    const bool yields = water.fluid.rheology != Rheology::newtonian;
     if (limits.acoustic >= costly * limits.viscous)
       say(fmt::format(
-          "water: its viscosity makes the step {:.3g} times shorter than sound does ({:.2g} s); use "
-          "larger cells ('spacing'), or lower 'viscosity' as far as the flow does not change",
-          limits.acoustic / limits.viscous, limits.step));
-    const double cell_reynolds =
-        water.fastest_bulk_speed * water.spacing * water.fluid.density / water.fluid.viscosity;
-    if (water.fluid.viscosity > 0 && cell_reynolds < 1 && water.wall_slip != WallSlip::no_slip)
+          "water: its viscosity {}makes the step {:.3g} times shorter than sound does ({:.2g} s); use "
+          "larger cells ('spacing'), or {} as far as the flow does not change",
+          yields ? "at rest " : "", limits.acoustic / limits.viscous, limits.step,
+          yields ? "raise 'yield_rate'" : "lower 'viscosity'"));
+    if (water.wall_slip == WallSlip::no_slip) return;
+    const double viscosity = viscosity_of(water.fastest_bulk_speed / water.spacing);
+    const double cell_reynolds = water.fastest_bulk_speed * water.spacing * water.fluid.density / viscosity;
+    if (water.fluid.yield_stress > 0)
+      say("water: it has a yield stress, which walls without 'wall_slip: no_slip' do not feel: it will not "
+          "stand on a slope");
+    else if (viscosity > 0 && cell_reynolds < 1)
       say(
           fmt::format("water: so thick (Reynolds number of a cell {:.2g}) that it sticks to walls; set "
                       "'wall_slip: no_slip'",
@@ -201,8 +213,8 @@ class Foresight {
       if (feed.below_cutoff != BelowCutoff::slurry || !(feed.moisture > 0)) continue;
       const double grains = SizeDistribution(feed.sizes).fines_fraction() / fluid.fines_density;
       const double phi = grains / (grains + feed.moisture / fluid.density);
-      const double thicker =
-          slurry_viscosity(fluid, phi) / slurry_density(fluid, phi) / (fluid.viscosity / fluid.density);
+      const double thicker = largest_viscosity(fluid, phi) / slurry_density(fluid, phi) /
+                             (largest_viscosity(fluid, 0) / fluid.density);
       const double allowed = parts_.water->limits().viscous / thicker;
       if (allowed < step)
         say(fmt::format(

@@ -85,8 +85,9 @@ void Watch::look_at_step(double t) const {
       fmt::format(
           "water that has come in is so thick that its steps may have {:.3g} s ({}); the run has {:.3g} s",
           limits.step, limits.governed_by, step_.dt_fluid()),
-      fmt::format("lower 'courant' by a factor of {:.3g}, the fines, or 'viscosity'",
-                  step_.dt_fluid() / limits.step));
+      fmt::format("lower 'courant' by a factor of {:.3g}, the fines, or 'viscosity'{}",
+                  step_.dt_fluid() / limits.step,
+                  parts_.water->model().rheology == Rheology::newtonian ? "" : ", or raise 'yield_rate'"));
 }
 
 void Watch::look_at_water(double t) {

@@ -39,6 +39,9 @@ void WaterChannel::keys(Schema& s) {
   s.number("cells", cells, {.at_least = 4, .doc = "grid cells across the channel"});
   s.choice("drive", drive, {{"force", ChannelDrive::force}, {"plate", ChannelDrive::plate}},
            {.doc = "a body force along the channel (Poiseuille), or the upper plate (Couette)"});
+  s.number("yield_stress", yield_stress, {.at_least = 0, .doc = "of the liquid, over rho F H"});
+  s.number("yield_rate", yield_rate, {.above = 0, .doc = "of its regularisation, over F H / nu"});
+  s.number("flow_index", flow_index, {.at_least = 0.1, .at_most = 1, .doc = "of the liquid"});
 }
 
 Measured WaterChannel::run(const CsvTable& reference) const {
@@ -53,6 +56,13 @@ Measured WaterChannel::run(const CsvTable& reference) const {
   setup.config.wall_slip = WallSlip::no_slip;
   setup.config.keep_tension = true;
   setup.config.fluid.viscosity = nu * setup.config.fluid.density;
+  if (yield_stress > 0 || flow_index < 1) {  // F = nu and H = 1: shear rates are in units of F H / nu
+    FluidModel& liquid = setup.config.fluid;
+    liquid.rheology = Rheology::herschel_bulkley;
+    liquid.yield_stress = yield_stress * liquid.density * nu;
+    liquid.yield_rate = yield_rate;
+    liquid.flow_index = flow_index;
+  }
   if (drive == ChannelDrive::force) setup.gravity = {nu, 0, 0};
   setup.domain = water_domain({Vec3(0, 0, -h), Vec3(width, width, 1 + h)}, {true, true, false});
   std::vector<Wall> plates;

@@ -54,6 +54,16 @@ TEST(Foresight, TellsThatViscosityRulesTheStep) {
       says(said_of("tank.yaml", {"water.fluid.viscosity=1000 Pa s"}), {"viscosity", "times shorter"}));
 }
 
+TEST(Foresight, TellsThatAYieldStressNeedsWallsThatHold) {
+  const std::vector<std::string> mud{"water.fluid.rheology=bingham", "water.fluid.yield_stress=20 Pa"};
+  EXPECT_TRUE(says(said_of("tank.yaml", mud), {"yield stress", "'wall_slip: no_slip'"}));
+  std::vector<std::string> held = mud;
+  held.push_back("water.wall_slip=no_slip");
+  EXPECT_TRUE(said_of("tank.yaml", held).empty());
+  held.push_back("water.fluid.yield_rate=1e-4 1/s");
+  EXPECT_TRUE(says(said_of("tank.yaml", held), {"at rest", "'yield_rate'"}));
+}
+
 TEST(Foresight, TellsThatATankIsTooFewCellsWide) {
   EXPECT_TRUE(
       says(said_of("tank.yaml", {"water.spacing=50 mm"}), {"cells wide along y", "'spacing' to 25 mm"}));
