@@ -9,7 +9,8 @@ namespace sluice {
 namespace {
 
 constexpr double least_open_fraction = 0.02;
-constexpr int sample_groups = 32;  // 1024 samples: a plane's fraction within 0.01
+constexpr double eye_slack = 2e-3;  // more than the offset at which a node is seen [h]
+constexpr int sample_groups = 32;   // 1024 samples: a plane's fraction within 0.01
 
 struct Candidate {
   double distance = 0;  ///< to the foot
@@ -131,18 +132,25 @@ int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x
 double open_fraction_of(const Sight& sight, const StencilRecord& record) {
   const Vec3 node = (record.base.cast<double>().array() + 1).matrix();
   const Vec3 eye = node + node_offset;
-  const auto patches = sight.stencils.patches_of(record);
+  // Patches whose plane passes by the support hide nothing of it.
+  std::vector<const StencilPatch*> patches;
+  for (const StencilPatch& p : sight.stencils.patches_of(record)) {
+    const WallPatch& plane = sight.plane(p);
+    if (std::abs(height_over(plane, node)) <= plane_reach * plane.normal.cwiseAbs().sum() + eye_slack)
+      patches.push_back(&p);
+  }
+  if (patches.empty()) return 1;
   int open = 0;
   for (const Targets& sample : spline_samples()) {
     Targets targets;
     for (int k = 0; k < 3; ++k)
       for (int j = 0; j < Targets::count; ++j) targets.x[k][j] = node[k] + sample.x[k][j];
     std::uint32_t hidden = 0;
-    for (const StencilPatch& p : patches) {
-      const std::uint32_t beyond = targets_beyond(sight.plane(p), eye, targets) & ~hidden;
+    for (const StencilPatch* p : patches) {
+      const std::uint32_t beyond = targets_beyond(sight.plane(*p), eye, targets) & ~hidden;
       if (!beyond) continue;
       alignas(64) double s[Targets::count];
-      hidden |= hidden_targets(sight, p, Reach::near_box, eye, targets, beyond, s);
+      hidden |= hidden_targets(sight, *p, Reach::near_box, eye, targets, beyond, s);
     }
     open += Targets::count - std::popcount(hidden);
   }

@@ -46,22 +46,34 @@ bool segment_meets_cube(const Vec3& a, const Vec3& b, const Vec3& centre, double
   return from <= to + 1e-9;
 }
 
+/// A convex polygon of up to 9 corners: each side of a cube adds one at most to a triangle's three.
+struct Polygon {
+  std::array<Vec3, 9> corner;
+  std::size_t count = 0;
+  void add(const Vec3& x) {
+    if (count < corner.size()) corner[count++] = x;
+  }
+  const Vec3* begin() const { return corner.data(); }
+  const Vec3* end() const { return corner.data() + count; }
+};
+
 /// Corners of the part of a triangle inside a cube (Sutherland-Hodgman).
-std::vector<Vec3> clipped(const WallTriangle& t, const Vec3& centre, double half) {
-  std::vector<Vec3> polygon(t.corner.begin(), t.corner.end()), next;
-  for (int side = 0; side < 6 && !polygon.empty(); ++side) {
+Polygon clipped(const WallTriangle& t, const Vec3& centre, double half) {
+  Polygon polygon, next;
+  for (const Vec3& corner : t.corner) polygon.add(corner);
+  for (int side = 0; side < 6 && polygon.count > 0; ++side) {
     const int axis = side / 2;
     const double sign = side % 2 ? -1 : 1;
     auto outside = [&](const Vec3& x) { return sign * (x[axis] - centre[axis]) - half; };
-    next.clear();
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Vec3 &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    next.count = 0;
+    for (std::size_t i = 0; i < polygon.count; ++i) {
+      const Vec3 &a = polygon.corner[i], &b = polygon.corner[i + 1 == polygon.count ? 0 : i + 1];
       const double out_a = outside(a), out_b = outside(b);
-      if (out_a <= 0) next.push_back(a);
+      if (out_a <= 0) next.add(a);
       if ((out_a < 0 && out_b > 0) || (out_a > 0 && out_b < 0))
-        next.push_back(a + out_a / (out_a - out_b) * (b - a));
+        next.add(a + out_a / (out_a - out_b) * (b - a));
     }
-    polygon.swap(next);
+    polygon = next;
   }
   return polygon;
 }
