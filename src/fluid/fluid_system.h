@@ -83,6 +83,7 @@ class FluidSystem {
   virtual double kinetic_energy() const = 0;     ///< [J]
   virtual double kinetic_added() const = 0;      ///< by add() since start [J]
   virtual double kinetic_removed() const = 0;    ///< by remove_if and remove_outside since start [J]
+  virtual double wall_work() const = 0;          ///< that walls in motion did on the fluid since start [J]
   virtual double largest_speed() const = 0;      ///< of any point in the last step [m/s]
   virtual double total_mass() const = 0;         ///< of the points inside, as stored, summed in double [kg]
   virtual double total_fines() const = 0;        ///< [kg]

@@ -32,18 +32,22 @@ ExplicitMpm<Real>::ExplicitMpm(const MpmConfig& config, const Domain& domain, co
     : config_(config),
       domain_(domain),
       gravity_(gravity),
-      limits_(step_limits(config, gravity, largest_viscosity(config.fluid, 0) / config.fluid.density)),
+      limits_(step_limits(config, gravity, largest_viscosity(config.fluid, 0) / config.fluid.density,
+                          WallPoses(walls).fastest())),
       sound_speed_(limits_.sound_speed),
       layout_(domain, config.spacing),
       store_(layout_),
       grid_(layout_),
+      walls_(walls),
+      poses_(walls),
       yields_(config.fluid.rheology != Rheology::newtonian),
       largest_kinematic_viscosity_(largest_viscosity(config.fluid, 0) / config.fluid.density),
       loads_(walls.size()) {
   bool blocks_water = false;
   for (const Wall& wall : walls.all())
     blocks_water = blocks_water || (wall.blocks != BlocksPhase::rocks_only && !wall.mesh.triangles.empty());
-  if (blocks_water) field_ = std::make_unique<WallField>(walls, domain, layout_.origin(), config.spacing);
+  if (blocks_water)
+    field_ = std::make_unique<WallField>(walls, poses_, domain, layout_.origin(), config.spacing);
 }
 
 template <class Real>
@@ -88,7 +92,7 @@ std::uint64_t ExplicitMpm<Real>::add(const NewPoint& point) {
   const double kinematic = largest_viscosity(fluid, phi) * volume / point.mass;
   if (kinematic > largest_kinematic_viscosity_) {
     largest_kinematic_viscosity_ = kinematic;
-    limits_ = step_limits(config_, gravity_, kinematic);
+    limits_ = step_limits(config_, gravity_, kinematic, poses_.fastest());
   }
   store_.add(p, cell_key, next_id_, point.mass, point.fines_mass);
   momentum_added_ += point.mass * velocity_of(p);
@@ -239,6 +243,7 @@ void ExplicitMpm<Real>::exchange(StateArchive& archive) {
   archive.value("momentum_removed", momentum_removed_);
   archive.value("kinetic_added", kinetic_added_);
   archive.value("kinetic_removed", kinetic_removed_);
+  archive.value("wall_work", wall_work_);
   archive.value("time", step_.t);
   std::vector<std::array<double, 8>> loads;
   for (const WallLoad& load : loads_)
@@ -266,7 +271,7 @@ void ExplicitMpm<Real>::exchange(StateArchive& archive) {
     const auto& l = loads[w];
     loads_[w] = {Vec3(l[0], l[1], l[2]), Vec3(l[3], l[4], l[5]), l[6], l[7]};
   }
-  limits_ = step_limits(config_, gravity_, largest_kinematic_viscosity_);
+  limits_ = step_limits(config_, gravity_, largest_kinematic_viscosity_, poses_.fastest());
   grid_.restore(active, [&](std::int32_t slot) { prepare_block(slot); });
   grid_.forget_void_fractions();
   if (has_void_) grid_.hold_void_fractions();

@@ -24,10 +24,13 @@
 #include "mpm/node_blocks.h"
 #include "mpm/wall_field.h"
 #include "mpm/wall_impulses.h"
+#include "mpm/wall_poses.h"
 
 namespace sluice {
 
-FluidStepLimits step_limits(const MpmConfig& config, const Vec3& gravity, double largest_kinematic_viscosity);
+/// @param fastest_wall  that moves [m/s]
+FluidStepLimits step_limits(const MpmConfig& config, const Vec3& gravity, double largest_kinematic_viscosity,
+                            double fastest_wall);
 
 template <class Real>
 class ExplicitMpm final : public FluidSystem {
@@ -60,6 +63,7 @@ class ExplicitMpm final : public FluidSystem {
   double kinetic_added() const override { return kinetic_added_; }
   double kinetic_removed() const override { return kinetic_removed_; }
   double largest_speed() const override { return largest_speed_; }
+  double wall_work() const override { return wall_work_; }
   double total_mass() const override;
   double total_fines() const override;
   std::uint64_t state_hash() const override;
@@ -134,6 +138,7 @@ class ExplicitMpm final : public FluidSystem {
   };
 
   std::vector<RemovedPoint> remove_slots(std::vector<std::uint32_t>& slots);
+  void place_walls(double t, double dt);
   void prepare_block(std::int32_t slot);
   void scatter_block(std::size_t index, ScatterScratch& scratch);
   void scatter(std::span<const Contribution> points, Node* corner) const;
@@ -168,6 +173,7 @@ class ExplicitMpm final : public FluidSystem {
   Vector update(Point& p, const Gathered& g) const;
   void stop_at_walls(Point& p, const Place& before, std::int32_t cell_key, std::int32_t stencil,
                      WallImpulses& impulses) const;
+  std::optional<WallHit> first_hit(std::int32_t stencil, const Vec3& from, const Vec3& to) const;
   void settle_in_cell(Point& p, Place& before, std::int32_t& cell_key) const;
   int colour_of(const Vec3i& place) const;
   void check_reports();
@@ -203,7 +209,10 @@ class ExplicitMpm final : public FluidSystem {
   BlockLayout layout_;
   PointStore<Real> store_;
   NodeBlocks<Real> grid_;
-  std::unique_ptr<WallField> field_;  ///< absent without walls
+  const Walls& walls_;
+  WallPoses poses_;
+  std::unique_ptr<WallField> field_;                              ///< absent without walls
+  std::array<Vec3i, 2> looked_at_{Vec3i::Zero(), Vec3i::Zero()};  ///< nodes that a field of moved walls knows
 
   StepNumbers step_;
   std::vector<ScatterScratch> scatter_scratch_;      ///< per thread
@@ -223,6 +232,7 @@ class ExplicitMpm final : public FluidSystem {
   Vec3 gravity_impulse_ = Vec3::Zero();
   Vec3 momentum_added_ = Vec3::Zero(), momentum_removed_ = Vec3::Zero();
   double kinetic_added_ = 0, kinetic_removed_ = 0;
+  double wall_work_ = 0;
   std::vector<WallLoad> loads_;
 };
 

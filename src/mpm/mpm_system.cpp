@@ -45,10 +45,10 @@ void MpmConfig::keys(Schema& s) {
   s.section("fluid", fluid, {.doc = "what the water is made of"});
 }
 
-FluidStepLimits step_limits(const MpmConfig& config, const Vec3& gravity,
-                            double largest_kinematic_viscosity) {
+FluidStepLimits step_limits(const MpmConfig& config, const Vec3& gravity, double largest_kinematic_viscosity,
+                            double fastest_wall) {
   const double bulk = std::max(config.fastest_bulk_speed, std::sqrt(2 * gravity.norm() * config.deepest));
-  const double fastest = std::max(bulk, config.fastest_speed);
+  const double fastest = std::max({bulk, config.fastest_speed, fastest_wall});
   FluidStepLimits limits;
   limits.sound_speed = config.sound_speed.value_or(10 * bulk);
   limits.acoustic = config.courant * config.spacing / (limits.sound_speed + fastest);

@@ -85,8 +85,15 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   around.plane_count = field_->planes_of_point(stencil, around.x, around.planes, most_planes);
   const Vec3 v = velocity_of(p);
   std::uint32_t holds = 0;
-  for (int q = 0; q < around.plane_count; ++q)  // what leaves a wall, nothing holds
-    if (p.dilation() < 0 || v.dot(around.planes[q].normal) >= 0) holds |= 1U << q;
+  Vec3 wall_velocity[most_planes], wall_change[most_planes];
+  for (int q = 0; q < around.plane_count; ++q) {
+    const WallPlane& plane = around.planes[q];
+    const Vec3 contact = around.x + plane.distance * plane.normal;
+    wall_change[q] = poses_.change(plane.wall, contact);
+    wall_velocity[q] = poses_.velocity(plane.wall, contact) - wall_change[q];  // as the point's own: before
+    if (p.dilation() < 0 || (v - wall_velocity[q]).dot(plane.normal) >= 0)     // what leaves, nothing holds
+      holds |= 1U << q;
+  }
   HiddenGroups groups;
   group_hidden(around, offset_of(p.x), holds, groups);
 
@@ -161,12 +168,13 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
       const WallPlane& plane = around.planes[q];
       // Friction is in the nodes' changes already, so those are mirrored as without it; shear goes on through
       // the wall.
-      ghost_change -= 2 * ghost_change.dot(plane.normal) * plane.normal;
+      ghost_change -= 2 * (ghost_change - wall_change[q]).dot(plane.normal) * plane.normal;
       if (config_.wall_slip == WallSlip::no_slip) {
-        ghost = 2 * field_->surface_velocity(plane.wall, around.x + plane.distance * plane.normal) - ghost;
+        const Vec3 contact = around.x + plane.distance * plane.normal;
+        ghost = 2 * (poses_.surface_velocity(plane.wall, contact) - wall_change[q]) - ghost;
         ghost_slope = -ghost_slope;
       } else {
-        ghost -= 2 * ghost.dot(plane.normal) * plane.normal;
+        ghost -= 2 * (ghost - wall_velocity[q]).dot(plane.normal) * plane.normal;
         ghost_slope -= 2 * plane.normal * (plane.normal.transpose() * ghost_slope);
       }
     }
@@ -186,6 +194,23 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   }
 }
 
+/// Where a path meets a wall first. A wall that moves is met in its own frame; the place and the normal are
+/// those at the end of the step.
+template <class Real>
+std::optional<WallHit> ExplicitMpm<Real>::first_hit(std::int32_t stencil, const Vec3& from,
+                                                    const Vec3& to) const {
+  if (!poses_.any()) return field_->first_hit(stencil, from, to);
+  std::optional<WallHit> first = field_->first_hit(stencil, from, to, -1);
+  for (int body = 0; body < poses_.bodies(); ++body) {
+    std::optional<WallHit> hit = field_->first_hit(stencil, from, poses_.to_start(body, to), body);
+    if (!hit || (first && first->s <= hit->s)) continue;
+    hit->point = poses_.to_end(body, hit->point);
+    hit->normal = poses_.turned_to_end(body, hit->normal);
+    first = hit;
+  }
+  return first;
+}
+
 /// No path crosses a wall: the point stops at the first one that its path meets.
 template <class Real>
 void ExplicitMpm<Real>::stop_at_walls(Point& p, const Place& before, std::int32_t cell_key,
@@ -194,11 +219,11 @@ void ExplicitMpm<Real>::stop_at_walls(Point& p, const Place& before, std::int32_
   const Vec3 start = position(before, cell_key);
   const Vec3 corner = layout_.node_position(layout_.cell_of(cell_key));
   for (int hits = 0; hits <= most_path_hits; ++hits) {
-    const auto hit = field_->first_hit(stencil, start, position(p.x, cell_key));
+    const auto hit = first_hit(stencil, start, position(p.x, cell_key));
     if (!hit) return;
     if (hits == most_path_hits) break;
     const Vec3 v(p.v[0], p.v[1], p.v[2]);
-    const double inward = v.dot(hit->normal);
+    const double inward = (v - poses_.velocity(hit->wall, hit->point)).dot(hit->normal);
     if (inward < 0) {
       for (int r = 0; r < 3; ++r) p.v[r] -= static_cast<Real>(inward * hit->normal[r]);
       impulses.add(hit->wall, static_cast<double>(p.mass()) * inward * hit->normal, hit->point);

@@ -29,7 +29,10 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   step_.shift = static_cast<Real>(0.5 / t_anchor * dt);
 
   store_.bin();
-  grid_.activate(store_.blocks(), [&](std::int32_t slot) { prepare_block(slot); });
+  grid_.activate(store_.blocks(), [&](std::int32_t slot) {
+    if (!poses_.any()) prepare_block(slot);
+  });
+  if (poses_.any()) place_walls(t, dt);
   const std::size_t blocks = store_.blocks().size();
   colour_blocks();
   if (impulses_.size() < std::max(blocks, grid_.active().size()))
@@ -78,6 +81,26 @@ void ExplicitMpm<Real>::share_step(double dt) {
   step_.dilation_per_speed = static_cast<Real>(h / (dt * c2));
 }
 
+/// Walls that have moved are looked at anew where there is water.
+template <class Real>
+void ExplicitMpm<Real>::place_walls(double t, double dt) {
+  const std::vector<std::int32_t>& active = grid_.active();
+  std::array<Vec3i, 2> reach{Vec3i::Constant(1 << 28), Vec3i::Constant(-(1 << 28))};
+  for (const std::int32_t block : active) {
+    const Vec3i lowest = BlockLayout::edge * layout_.block_place(block);
+    reach[0] = reach[0].cwiseMin(lowest);
+    reach[1] = reach[1].cwiseMax((lowest.array() + (BlockLayout::edge - 1)).matrix());
+  }
+  const bool moved = poses_.place(t, dt);
+  if (moved || (reach[0].array() < looked_at_[0].array()).any() ||
+      (reach[1].array() > looked_at_[1].array()).any()) {
+    field_ = std::make_unique<WallField>(walls_, poses_, domain_, layout_.origin(), config_.spacing, reach);
+    looked_at_ = reach;
+  }
+  parallel_for(
+      active.size(), [&](std::size_t b) { prepare_block(grid_.slot_of(active[b])); }, 16);
+}
+
 template <class Real>
 void ExplicitMpm<Real>::prepare_block(std::int32_t slot) {
   if (!field_) return;
@@ -94,6 +117,10 @@ void ExplicitMpm<Real>::prepare_block(std::int32_t slot) {
 template <class Real>
 void ExplicitMpm<Real>::pour_loads(std::size_t lists) {
   for (std::size_t b = 0; b < lists; ++b) {
+    if (poses_.any())
+      impulses_[b].for_each([&](int wall, const WallLoad& load) {
+        wall_work_ -= poses_.work(wall, load.impulse, load.angular_impulse);
+      });
     impulses_[b].pour_into(loads_);
     impulses_[b].clear();
   }
@@ -272,10 +299,12 @@ std::uint32_t ExplicitMpm<Real>::finish_nodes(std::int32_t slot) {
 template void ExplicitMpm<float>::points_to_grid(double, double);
 template void ExplicitMpm<float>::share_step(double);
 template void ExplicitMpm<float>::prepare_block(std::int32_t);
+template void ExplicitMpm<float>::place_walls(double, double);
 template void ExplicitMpm<float>::pour_loads(std::size_t);
 template void ExplicitMpm<double>::points_to_grid(double, double);
 template void ExplicitMpm<double>::share_step(double);
 template void ExplicitMpm<double>::prepare_block(std::int32_t);
+template void ExplicitMpm<double>::place_walls(double, double);
 template void ExplicitMpm<double>::pour_loads(std::size_t);
 
 }  // namespace sluice

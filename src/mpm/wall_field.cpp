@@ -18,7 +18,7 @@ constexpr int most_node_planes = 8;  // no more directions differ by 41 degrees 
 
 /// Bases to record: near the domain, and near walls.
 std::array<Vec3i, 2> recorded_bases(const WallPatches& walls, const Domain& domain, const Vec3& origin,
-                                    double h) {
+                                    double h, const std::array<Vec3i, 2>& nodes) {
   Box box{(domain.box.lo - origin) / h, (domain.box.hi - origin) / h};
   Box near_walls;
   for (const WallTriangle& t : walls.triangles)
@@ -29,6 +29,8 @@ std::array<Vec3i, 2> recorded_bases(const WallPatches& walls, const Domain& doma
   for (int k = 0; k < 3; ++k) {
     lo[k] = static_cast<int>(std::floor(std::max(box.lo[k] - halo - 1, near_walls.lo[k])));
     hi[k] = static_cast<int>(std::ceil(std::min(box.hi[k] + halo, near_walls.hi[k])));
+    lo[k] = std::max(lo[k], nodes[0][k] - 2);  // of a point beside the lowest node
+    hi[k] = std::min(hi[k], nodes[1][k] + 1);
   }
   return {lo, hi};
 }
@@ -51,28 +53,38 @@ constexpr auto node_places = [] {
 }  // namespace
 
 struct WallField::Implementation {
+  static constexpr double not_known = -1;
   struct NodeRecord {
     std::int32_t planes = 0;  ///< first of its planes
     std::int32_t count = 0;
-    double open = 1;
+    double open = not_known;
   };
 
-  Implementation(const Walls& all, const Domain& domain, const Vec3& grid_origin, double spacing)
-      : walls(all),
+  Implementation(const Walls& walls, const WallPoses& all_poses, const Domain& domain,
+                 const Vec3& grid_origin, double spacing, const std::array<Vec3i, 2>& nodes)
+      : poses(all_poses),
         origin(grid_origin),
         h(spacing),
         per_h(1 / spacing),
-        patches(make_wall_patches(all, domain, grid_origin, spacing)),
-        bases(recorded_bases(patches, domain, grid_origin, spacing)),
+        patches(make_wall_patches(walls, all_poses, domain, grid_origin, spacing)),
+        bases(recorded_bases(patches, domain, grid_origin, spacing, nodes)),
         stencils(patches, bases[0], bases[1]) {
     set_up_nodes();
   }
 
   void set_up_nodes();
+  /// Found when it is first asked for: most nodes near walls never see water.
+  double open_fraction(std::size_t record) {
+    double& open = nodes[record].open;
+    if (open == not_known) open = open_fraction_of(sight, stencils.records[record]);
+    return open;
+  }
   /// First crossing among the patches of a record; a and b lie in its near box.
-  std::optional<WallHit> first_crossing(const StencilRecord& record, const Vec3& a, const Vec3& b) const;
+  std::optional<WallHit> first_crossing(const StencilRecord& record, const Vec3& a, const Vec3& b,
+                                        int body) const;
 
-  const Walls& walls;
+  const WallPoses& poses;
+  std::unique_ptr<const WallPoses> at_rest;  ///< where nobody else has them
   Vec3 origin;
   double h, per_h;
   WallPatches patches;
@@ -99,7 +111,6 @@ void WallField::Implementation::set_up_nodes() {
         found[c].push_back(active[static_cast<std::size_t>(i)]);
         found[c].back().distance *= h;
       }
-      nodes[r].open = open_fraction_of(sight, record);
     }
   });
   for (const auto& part : found) planes.insert(planes.end(), part.begin(), part.end());
@@ -112,10 +123,11 @@ void WallField::Implementation::set_up_nodes() {
 }
 
 std::optional<WallHit> WallField::Implementation::first_crossing(const StencilRecord& record, const Vec3& a,
-                                                                 const Vec3& b) const {
+                                                                 const Vec3& b, int body) const {
   double first = 2;
   int patch = -1;
   for (const StencilPatch& p : stencils.patches_of(record)) {
+    if (body != any_body && poses.body_of(sight.plane(p).wall) != body) continue;
     const std::optional<double> s = sight.crossing(p, a, b);
     if (s && *s < first) {
       first = *s;
@@ -133,8 +145,14 @@ std::optional<WallHit> WallField::Implementation::first_crossing(const StencilRe
   return hit;
 }
 
-WallField::WallField(const Walls& walls, const Domain& domain, const Vec3& origin, double h)
-    : implementation_(std::make_unique<Implementation>(walls, domain, origin, h)) {}
+WallField::WallField(const Walls& walls, const WallPoses& poses, const Domain& domain, const Vec3& origin,
+                     double h, const std::array<Vec3i, 2>& nodes)
+    : implementation_(std::make_unique<Implementation>(walls, poses, domain, origin, h, nodes)) {}
+WallField::WallField(const Walls& walls, const Domain& domain, const Vec3& origin, double h) {
+  auto at_rest = std::make_unique<const WallPoses>(walls);
+  implementation_ = std::make_unique<Implementation>(walls, *at_rest, domain, origin, h, all_nodes_of_domain);
+  implementation_->at_rest = std::move(at_rest);
+}
 WallField::~WallField() = default;
 
 int WallField::stencil(const Vec3i& base) const {
@@ -202,14 +220,14 @@ std::span<const WallPlane> WallField::planes_of_node(const Vec3i& node) const {
 
 double WallField::open_fraction(const Vec3i& node) const {
   const int record = stencil(node - Vec3i::Ones());
-  return record < 0 ? 1.0 : implementation_->nodes[static_cast<std::size_t>(record)].open;
+  return record < 0 ? 1.0 : implementation_->open_fraction(static_cast<std::size_t>(record));
 }
 
 double WallField::open_fraction_at(int stencil) const {
-  return implementation_->nodes[static_cast<std::size_t>(stencil)].open;
+  return implementation_->open_fraction(static_cast<std::size_t>(stencil));
 }
 
-std::optional<WallHit> WallField::first_hit(int stencil, const Vec3& a, const Vec3& b) const {
+std::optional<WallHit> WallField::first_hit(int stencil, const Vec3& a, const Vec3& b, int body) const {
   const Implementation& field = *implementation_;
   if (field.stencils.records.empty()) return std::nullopt;
   const Vec3 from = (a - field.origin) * field.per_h, to = (b - field.origin) * field.per_h;
@@ -221,7 +239,7 @@ std::optional<WallHit> WallField::first_hit(int stencil, const Vec3& a, const Ve
     const StencilRecord& record = field.stencils.records[static_cast<std::size_t>(stencil)];
     const Vec3 centre = (record.base.cast<double>().array() + 1).matrix();
     if ((from - centre).cwiseAbs().maxCoeff() <= 2 && (to - centre).cwiseAbs().maxCoeff() <= 2) {
-      hit = field.first_crossing(record, from, to);
+      hit = field.first_crossing(record, from, to, body);
       if (hit) hit->point = field.origin + field.h * hit->point;
       return hit;
     }
@@ -251,8 +269,8 @@ std::optional<WallHit> WallField::first_hit(int stencil, const Vec3& a, const Ve
     const Vec3 stop = i + 1 == pieces && end == 1 ? to : Vec3(from + s_end * step);
     const int piece_stencil = field.stencils.find(base_of(start));
     if (piece_stencil >= 0)
-      hit =
-          field.first_crossing(field.stencils.records[static_cast<std::size_t>(piece_stencil)], start, stop);
+      hit = field.first_crossing(field.stencils.records[static_cast<std::size_t>(piece_stencil)], start, stop,
+                                 body);
     if (hit) {
       hit->s = s_begin + hit->s * (s_end - s_begin);
       hit->point = field.origin + field.h * hit->point;
@@ -271,9 +289,6 @@ int WallField::patch_wall(int patch) const {
 }
 int WallField::patch_count() const {
   return static_cast<int>(implementation_->patches.patches.size());
-}
-Vec3 WallField::surface_velocity(int wall, const Vec3& at) const {
-  return implementation_->walls.surface_velocity(wall, at);
 }
 
 std::size_t WallField::memory_bytes() const {

@@ -30,6 +30,7 @@
 
 #include "base/domain.h"
 #include "geometry/wall.h"
+#include "mpm/wall_poses.h"
 
 namespace sluice {
 
@@ -61,7 +62,12 @@ struct WallHit {
 
 class WallField {
  public:
-  /// Nodes lie at origin + h (i, j, k). Walls that block water only, or both.
+  /// Nodes lie at origin + h (i, j, k). Walls that block water only, or both, where `poses` has them.
+  /// @param poses  must outlive this
+  /// @param nodes  lowest and highest that anything will be asked about
+  WallField(const Walls& walls, const WallPoses& poses, const Domain& domain, const Vec3& origin, double h,
+            const std::array<Vec3i, 2>& nodes = all_nodes_of_domain);
+  /// The same where they rest.
   WallField(const Walls& walls, const Domain& domain, const Vec3& origin, double h);
   ~WallField();
 
@@ -80,6 +86,7 @@ class WallField {
   std::span<const WallPlane> planes_of_node(const Vec3i& node) const;
   /// Fraction of the node's quadratic B-spline support (weighted) that is on the node's side of the walls
   /// near it, 1 far from walls; never below 0.02. Weighted by the spline, so that full water reads fill = 1.
+  /// Not to be asked about one node by two threads at a time.
   double open_fraction(const Vec3i& node) const;
   /// The same, for the node base + 1 of a stencil.
   double open_fraction_at(int stencil) const;
@@ -87,14 +94,16 @@ class WallField {
   /// First wall met on the way from a to b (double precision, watertight over shared edges). `stencil` is
   /// that of a, or -1; paths that leave its surroundings are followed through the cells they cross. Walls
   /// more than 3 cells outside the domain are not met.
+  /// @param body  of WallPoses that counts, -1 for the walls that stand; `any_body`: all
   /// @pre a and b are finite
-  std::optional<WallHit> first_hit(int stencil, const Vec3& a, const Vec3& b) const;
+  std::optional<WallHit> first_hit(int stencil, const Vec3& a, const Vec3& b, int body = any_body) const;
+  static constexpr int any_body = -2;
+  static inline const std::array<Vec3i, 2> all_nodes_of_domain{Vec3i::Constant(-(1 << 28)),
+                                                               Vec3i::Constant(1 << 28)};
 
   const Vec3& patch_normal(int patch) const;
   int patch_wall(int patch) const;
   int patch_count() const;
-  /// Velocity of a wall's surface [m/s], as Walls::surface_velocity.
-  Vec3 surface_velocity(int wall, const Vec3& at) const;
   std::size_t memory_bytes() const;
 
  private:

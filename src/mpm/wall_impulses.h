@@ -32,6 +32,11 @@ class WallImpulses {
     }
   }
 
+  template <class Body>
+  void for_each(const Body& body) const {
+    for (const Entry& e : entries_) body(e.wall, e.load);
+  }
+
  private:
   struct Entry {
     int wall = -1;

@@ -44,7 +44,7 @@ std::vector<Vec3> image_shifts(const Domain& domain, double h) {
   return shifts;
 }
 
-Soup collect(const Walls& walls, const Domain& domain, const Vec3& origin, double h) {
+Soup collect(const Walls& walls, const WallPoses& poses, const Domain& domain, const Vec3& origin, double h) {
   const Box reach = Box{(domain.box.lo - origin) / h, (domain.box.hi - origin) / h}.grown(image_reach);
   const std::vector<Vec3> shifts = image_shifts(domain, h);
   const TriMesh& mesh = walls.mesh();
@@ -56,7 +56,8 @@ Soup collect(const Walls& walls, const Domain& domain, const Vec3& origin, doubl
       std::array<Vec3, 3> corner;
       Box box;
       for (std::size_t k = 0; k < 3; ++k) {
-        corner[k] = (mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])] - origin) / h + shift;
+        const Vec3& rest = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])];
+        corner[k] = (poses.to_space(wall, rest) - origin) / h + shift;
         box.include(corner[k]);
       }
       if (!box.overlaps(reach)) continue;
@@ -245,9 +246,10 @@ void set_edges(WallTriangle& triangle, const WallPatch& patch) {
 
 }  // namespace
 
-WallPatches make_wall_patches(const Walls& walls, const Domain& domain, const Vec3& origin, double h) {
+WallPatches make_wall_patches(const Walls& walls, const WallPoses& poses, const Domain& domain,
+                              const Vec3& origin, double h) {
   WallPatches out;
-  Soup soup = collect(walls, domain, origin, h);
+  Soup soup = collect(walls, poses, domain, origin, h);
   if (soup.corners.empty()) return out;
   Box bounds;
   for (const auto& c : soup.corners)

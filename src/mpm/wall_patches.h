@@ -8,6 +8,7 @@
 
 #include "base/domain.h"
 #include "geometry/wall.h"
+#include "mpm/wall_poses.h"
 
 namespace sluice {
 
@@ -38,7 +39,8 @@ struct WallPatches {
   double tolerance = 1e-6;  ///< two places closer than this are one
 };
 
-/// Walls that block water, near the domain; with the periodic images near its periodic faces.
-WallPatches make_wall_patches(const Walls& walls, const Domain& domain, const Vec3& origin, double h);
+/// Walls that block water where they are, near the domain; with the periodic images near its periodic faces.
+WallPatches make_wall_patches(const Walls& walls, const WallPoses& poses, const Domain& domain,
+                              const Vec3& origin, double h);
 
 }  // namespace sluice

@@ -135,11 +135,16 @@ void ExplicitMpm<Real>::close_pressure(Node& node, double volume, std::span<cons
     const WallPlane& plane = planes[k];
     const double cn = c.dot(plane.normal);
     if (cn <= 0) continue;
-    const double at_wall =
-        std::max(0.0, mean_pressure + density * gravity_.dot(plane.distance * plane.normal - centre_offset));
+    // Beside a wall whose motion changes, the water's does too, across the wall.
+    const Vec3 contact = at + plane.distance * plane.normal;
+    const double surge = poses_.change(plane.wall, contact).dot(plane.normal) / step_.dt;
+    const double at_wall = std::max(
+        0.0,
+        mean_pressure +
+            density * (gravity_ - surge * plane.normal).dot(plane.distance * plane.normal - centre_offset));
     const Vec3 impulse = -step_.dt * chi * at_wall * cn * plane.normal;
     add_to(node, change, impulse / m);
-    add_with_images(planes, k, config_.spacing, -impulse, at + plane.distance * plane.normal, impulses);
+    add_with_images(planes, k, config_.spacing, -impulse, contact, impulses);
     c -= cn * plane.normal;
   }
 }
@@ -163,10 +168,10 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, Vec3 cut_off,
   for (std::size_t k = 0; k < planes.size(); ++k) {
     const WallPlane& plane = planes[k];
     const Vec3 contact = at + plane.distance * plane.normal;
-    const Vec3 surface = field_->surface_velocity(plane.wall, contact);
+    const Vec3 surface = poses_.surface_velocity(plane.wall, contact);
     const double s = plane.distance / h;
     const double hold = chi * 2 * spline_beyond(s);
-    const double vn = v.dot(plane.normal);
+    const double vn = (v - poses_.velocity(plane.wall, contact)).dot(plane.normal);
     Vec3 held = Vec3::Zero(), change_here = Vec3::Zero();
     if (vn > 0 || pressed) {
       held = change_here = -hold * vn * plane.normal;

@@ -240,10 +240,11 @@ BuiltProcess Builder::build() {
   stop_if_bad();
 
   if (config_.rocks) collect([&] { make_rocks(sources); }, config_.rocks_at);
-  if (parts.rocks)
-    std::ranges::move(unresolved_motions(config_, parts.rocks->step_size()), std::back_inserter(problems_));
   std::ranges::move(motion_warnings(config_, parts.walls->all()), std::back_inserter(built_.warnings));
   if (config_.water) collect([&] { make_water(); }, config_.water_at);
+  std::ranges::move(unresolved_motions(config_, parts.rocks ? parts.rocks->step_size() : 0,
+                                       parts.water ? parts.water->limits().step : 0),
+                    std::back_inserter(problems_));
   stop_if_bad();
   target_ = {parts.rocks.get(),
              parts.water.get(),

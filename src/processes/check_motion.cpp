@@ -12,10 +12,6 @@ std::vector<InputProblem> motion_problems(const ProcessConfig& config, const Wal
                                           std::span<const Wall> walls) {
   std::vector<InputProblem> problems;
   if (!entry.motion) return problems;
-  if (config.water && entry.blocks != BlocksPhase::rocks_only)
-    problems.push_back({entry.motion_at, "motion", fmt::format("moves '{}', which blocks water", entry.name),
-                        "water does not see walls move yet",
-                        fmt::format("set 'walls.{}.blocks: rocks_only', or leave 'motion' out", entry.name)});
   std::vector<Vec3> corners;
   for (const Wall& wall : walls)
     corners.insert(corners.end(), wall.mesh.vertices.begin(), wall.mesh.vertices.end());
@@ -32,18 +28,23 @@ std::vector<InputProblem> motion_problems(const ProcessConfig& config, const Wal
   return problems;
 }
 
-std::vector<InputProblem> unresolved_motions(const ProcessConfig& config, double step) {
+std::vector<InputProblem> unresolved_motions(const ProcessConfig& config, double rock_step,
+                                             double water_step) {
   std::vector<InputProblem> problems;
   for (const WallConfig& entry : config.walls) {
     if (!entry.motion) continue;
-    const double steps = shortest_time(*entry.motion) / step;
-    if (steps >= least_steps_per_period) continue;
-    problems.push_back({entry.motion_at, "motion",
-                        fmt::format("has {:.3g} s for a period, a turn or from one keyframe to the next",
-                                    shortest_time(*entry.motion)),
-                        fmt::format("that is {:.3g} time steps of the rocks; {:.0f} are needed", steps,
-                                    least_steps_per_period),
-                        "slow it down, or raise 'rocks.steps_per_contact'"});
+    const double time = shortest_time(*entry.motion);
+    const auto look = [&](const char* of, double step, double least, const char* key) {
+      if (time >= least * step) return;
+      problems.push_back(
+          {entry.motion_at, "motion",
+           fmt::format("has {:.3g} s for a period, a turn or from one keyframe to the next", time),
+           fmt::format("that is {:.3g} time steps of the {}; {:.0f} are needed", time / step, of, least),
+           fmt::format("slow it down, or {}", key)});
+    };
+    look("rocks", rock_step, least_rock_steps_per_period, "raise 'rocks.steps_per_contact'");
+    if (entry.blocks != BlocksPhase::rocks_only)
+      look("water", water_step, least_water_steps_per_period, "lower 'water.courant'");
   }
   return problems;
 }
@@ -58,6 +59,11 @@ std::vector<std::string> motion_warnings(const ProcessConfig& config, std::span<
     if (within(wall.mesh.bounds()) && !within(range.swept))
       warnings.push_back(
           fmt::format("{}: its motion reaches out of the domain, to {}", wall.name, reach_of(range.swept)));
+    if (config.water && wall.blocks != BlocksPhase::rocks_only &&
+        range.speed > config.water->fastest_bulk_speed)
+      warnings.push_back(
+          fmt::format("{}: moves at {:.3g} m/s, faster than 'water.fastest_bulk_speed' ({:.3g} m/s)",
+                      wall.name, range.speed, config.water->fastest_bulk_speed));
     if (config.rocks && range.speed > config.rocks->impact_speed)
       warnings.push_back(fmt::format("{}: moves at {:.3g} m/s, faster than 'rocks.impact_speed' ({:.3g} m/s)",
                                      wall.name, range.speed, config.rocks->impact_speed));

@@ -13,9 +13,9 @@ namespace {
 
 constexpr int rock_steps_per_look = 100, water_steps_per_look = 20;
 
+/// A belt's work on the water is not kept; that of a wall in motion is.
 bool drags_water(const Wall& wall) {
-  return wall.blocks != BlocksPhase::rocks_only &&
-         (wall.motion.has_value() || !wall.surface_velocity.isZero());
+  return wall.blocks != BlocksPhase::rocks_only && !wall.surface_velocity.isZero();
 }
 
 std::uint64_t scene_steps(int particle_steps, int substeps) {
@@ -98,16 +98,19 @@ void Watch::look_at_water(double t) {
   looked_at_ = t;
 
   const double from_rocks = parts_.rocks ? std::max(0.0, -parts_.rocks->energy().fluid_work) : 0;
-  const double given = water.kinetic_added() - water.kinetic_removed() + water_gravity_work_ + from_rocks;
+  const double from_walls = water.wall_work();
+  const double given =
+      water.kinetic_added() - water.kinetic_removed() + water_gravity_work_ + from_rocks + from_walls;
   const double created = water.kinetic_energy() - given;
   const double expected_speed = 0.1 * water.limits().sound_speed;
-  const double all = water.kinetic_added() + std::max(0.0, water_gravity_work_) + from_rocks;
+  const double all =
+      water.kinetic_added() + std::max(0.0, water_gravity_work_) + from_rocks + std::max(0.0, from_walls);
   if (created <=
       most_created * all + least_created * 0.5 * water.total_mass() * expected_speed * expected_speed)
     return;
   throw NumericalError(
       "water.grid_to_points", t,
-      fmt::format("water moves with {:.3g} J more than gravity, inflow and rocks gave it (limit "
+      fmt::format("water moves with {:.3g} J more than gravity, inflow, walls and rocks gave it (limit "
                   "{:.0f} % of {:.3g} J), its fastest point at {:.3g} m/s with sound at {:.3g} m/s",
                   created, 100 * most_created, all, water.largest_speed(), water.limits().sound_speed),
       water.limits().viscous < water.limits().acoustic

@@ -29,6 +29,7 @@
 #include "validation/water_slot.h"
 #include "validation/water_still.h"
 #include "validation/water_taylor_green.h"
+#include "validation/water_tilted.h"
 
 namespace sluice {
 
@@ -61,6 +62,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"water_taylor_green", "point", made<WaterTaylorGreen>},
       {"water_channel", "point", made<WaterChannel>},
       {"water_sloshing", "point", made<WaterSloshing>},
+      {"water_tilted", "point", made<WaterTilted>},
       {"water_dam_break", "point", made<WaterDamBreak>},
       {"water_jet", "point", made<WaterJet>},
       {"water_slot", "point", made<WaterSlot>},

@@ -86,6 +86,7 @@ class FakeFluid : public FluidSystem {
   double kinetic_energy() const override { return 0; }
   double kinetic_added() const override { return 0; }
   double kinetic_removed() const override { return 0; }
+  double wall_work() const override { return 0; }
   double largest_speed() const override { return 0; }
   double total_mass() const override {
     double sum = 0;

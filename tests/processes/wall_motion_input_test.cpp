@@ -166,8 +166,7 @@ TEST_F(WallMotionInput, MayMoveAWallThatBlocksWater) {
       "    motion: {kind: vibration, direction: [1, 0, 1], stroke: 8 mm, frequency: 15 Hz}\n"
       "water:\n  spacing: 100 mm\n  fastest_bulk_speed: 2 m/s\n"
       "water_fills:\n  pool:\n    low: [0.1 m, 0.1 m, 0.1 m]\n    high: [0.9 m, 0.9 m, 0.4 m]";
-  expect_refused(water, 18, "motion", "blocks: rocks_only");
-  EXPECT_NO_THROW(build_parts(read_scene("    blocks: rocks_only\n" + water)));
+  EXPECT_NO_THROW(build_parts(read_scene(water)));
 }
 
 TEST_F(WallMotionInput, MayLeaveTheDomain) {
