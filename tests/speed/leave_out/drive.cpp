@@ -1,10 +1,11 @@
-/// Steps a process whole, or one of its parts alone: for scripts/leave_out.sh, which counts what either executes.
-/// Usage: leave_out whole|rocks|water STEPS PROCESS [key=value]...
-/// Prints the state's hash, the heap's bytes in use and the length of a step [s].
+/// Steps a process whole, or one of its parts alone: for scripts/leave_out.sh, which counts what either
+/// executes. Usage: leave_out whole|rocks|water STEPS PROCESS [key=value]... Prints the state's hash, the
+/// heap's bytes in use, the length of a step [s] and its substeps.
 
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
@@ -18,7 +19,8 @@ namespace {
 using namespace sluice;
 
 void say(std::uint64_t hash, const TimeStep& step) {
-  fmt::print("{:016x} {} {:.17g}\n", hash, mallinfo2().uordblks, step.dt);
+  fmt::print("{:016x} {} {:.17g} {}\n", hash, mallinfo2().uordblks, step.dt,
+             std::max(step.rock_substeps, step.fluid_substeps));
 }
 
 /// The rocks, moved by nothing but their own system.
