@@ -4,8 +4,10 @@
 #include "validation/analysis_residence.h"
 #include "validation/analysis_sizes.h"
 #include "validation/coupling_bed.h"
+#include "validation/coupling_dam.h"
 #include "validation/coupling_hindered.h"
 #include "validation/coupling_settling.h"
+#include "validation/coupling_stream.h"
 #include "validation/coupling_third_law.h"
 #include "validation/emitter_flux.h"
 #include "validation/rock_bed_energy.h"
@@ -69,6 +71,8 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"coupling_settling", "point", made<CouplingSettling>},
       {"coupling_hindered", "point", made<CouplingHindered>},
       {"coupling_bed", "point", made<CouplingBed>},
+      {"coupling_stream", "point", made<CouplingStream>},
+      {"coupling_dam", "point", made<CouplingDam>},
       {"coupling_third_law", "point", made<CouplingThirdLaw>},
       {"emitter_flux", "sample", made<EmitterFlux>},
       {"analysis_mixing", "sample", made<AnalysisMixing>},

@@ -128,6 +128,29 @@ TEST(TwoWayCoupling, LetsARockFallAtItsTerminalVelocity) {
   EXPECT_NEAR(sum / count, expected, 0.05 * expected);
 }
 
+// Pressure noise reaches a rock through its buoyancy: rms 5 % of its weight at most, mean 2 %.
+TEST(Buoyancy, IsAsQuietAsTheStillWaterIs) {
+  const double d = 0.03, h = 0.02;
+  Pool pool(8 * h, 0.3, h, d, CouplingConfig{});
+  for (const Vec3& x : {Vec3(0.05, 0.06, 0.08), Vec3(0.11, 0.1, 0.15), Vec3(0.07, 0.03, 0.2)})
+    pool.rocks->add({.x = x, .size = d});
+  double mean = 0, square = 0;
+  int count = 0;
+  while (pool.t < 0.5) {
+    pool.step(Pool::Rocks::held);
+    if (pool.t < 0.25) continue;
+    for (std::size_t r = 0; r < 3; ++r) {
+      const Vec3 force = pool.coupling->drag_force()[r] + pool.coupling->buoyancy_force()[r];
+      const double displaced = 1000 * 9.81 * pool.rocks->volume(r), weight = 2.65 * displaced;
+      mean += force.z() / displaced;
+      square += (force - Vec3(0, 0, displaced)).squaredNorm() / (weight * weight);
+      ++count;
+    }
+  }
+  EXPECT_NEAR(mean / count, 1, 0.02);
+  EXPECT_LT(std::sqrt(square / count), 0.05);
+}
+
 // Rocks of volume V held under water of area A: the level rises by V/A. The centroid of water that fills
 // (depth + rise) with rocks spread evenly over the lower part is what is compared, through its own balance.
 TEST(Level, RisesByTheRocksVolumeOverTheArea) {
