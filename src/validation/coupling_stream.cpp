@@ -37,9 +37,9 @@ Measured CouplingStream::run(const CsvTable& reference) const {
     scene.rocks->add({.x = width * Vec3(0.43, 0.52, 0.57), .size = d});
     const double passes = d / stream[k];
     double sum = 0, looks = 0;
-    while (scene.fluid.t < 2 * passes) {
+    while (scene.fluid.t < passes) {
       scene.step();
-      if (scene.fluid.t < passes) continue;
+      if (scene.fluid.t < 0.5 * passes) continue;
       sum += scene.coupling->drag_force()[0].x();
       looks += 1;
     }

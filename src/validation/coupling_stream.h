@@ -2,7 +2,7 @@
 /// Drag on one held rock in an even stream, over its size in cells.
 ///
 /// The box is periodic and as wide as the rock's kernel; read is the mean force while the stream passes from
-/// one to two sizes, over that of the law at the stream's speed.
+/// half to one size, over that of the law at the stream's speed.
 ///
 /// Reference: columns `diameter` [m], `stream` [m/s], `drag` [N].
 
