@@ -43,6 +43,7 @@ ExplicitMpm<Real>::ExplicitMpm(const MpmConfig& config, const Domain& domain, co
       yields_(config.fluid.rheology != Rheology::newtonian),
       largest_kinematic_viscosity_(largest_viscosity(config.fluid, 0) / config.fluid.density),
       loads_(walls.size()) {
+  find_faces();
   bool blocks_water = false;
   for (const Wall& wall : walls.all())
     blocks_water = blocks_water || (wall.blocks != BlocksPhase::rocks_only && !wall.mesh.triangles.empty());
@@ -156,7 +157,31 @@ std::vector<RemovedPoint> ExplicitMpm<Real>::remove_if(
 
 template <class Real>
 std::vector<RemovedPoint> ExplicitMpm<Real>::remove_outside() {
-  return remove_if([this](const Vec3&, const Vec3& now) { return domain_.outside(now); });
+  constexpr std::size_t chunk = 2048;
+  std::vector<std::vector<std::uint32_t>> found((store_.slots() + chunk - 1) / chunk);
+  parallel_chunks(store_.slots(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot) {
+      const std::int32_t key = store_.key[slot];
+      if (key == BlockLayout::none || !at_face_[static_cast<std::size_t>(key >> 6)]) continue;
+      if (domain_.outside(position(store_.points[slot].x, key)))
+        found[c].push_back(static_cast<std::uint32_t>(slot));
+    }
+  });
+  std::vector<std::uint32_t> slots;
+  for (const auto& list : found) slots.insert(slots.end(), list.begin(), list.end());
+  return remove_slots(slots);
+}
+
+template <class Real>
+void ExplicitMpm<Real>::find_faces() {
+  at_face_.resize(static_cast<std::size_t>(layout_.block_count()));
+  for (std::int32_t block = 0; block < layout_.block_count(); ++block) {
+    const Vec3i lowest = BlockLayout::edge * layout_.block_place(block);
+    const Vec3 half = Vec3::Constant(0.5 * config_.spacing);
+    at_face_[static_cast<std::size_t>(block)] =
+        domain_.outside(layout_.node_position(lowest) - half) ||
+        domain_.outside(layout_.node_position((lowest.array() + (BlockLayout::edge - 1)).matrix()) + half);
+  }
 }
 
 template <class Real>
@@ -228,7 +253,7 @@ std::size_t ExplicitMpm<Real>::memory_bytes() const {
          gather_scratch_.capacity() * sizeof(GatherScratch) + blocks_of_colours * sizeof(std::uint32_t) +
          node_begin_.capacity() * sizeof(std::uint32_t) + impulse_.capacity() * sizeof(Vec3) +
          impulses_.capacity() * sizeof(WallImpulses) + reports_.capacity() * sizeof(BlockReport) +
-         (field_ ? field_->memory_bytes() : 0);
+         at_face_.capacity() + (field_ ? field_->memory_bytes() : 0);
 }
 
 template <class Real>

@@ -138,6 +138,7 @@ class ExplicitMpm final : public FluidSystem {
   };
 
   std::vector<RemovedPoint> remove_slots(std::vector<std::uint32_t>& slots);
+  void find_faces();
   void place_walls(double t, double dt);
   void prepare_block(std::int32_t slot);
   void scatter_block(std::size_t index, ScatterScratch& scratch);
@@ -209,6 +210,7 @@ class ExplicitMpm final : public FluidSystem {
   BlockLayout layout_;
   PointStore<Real> store_;
   NodeBlocks<Real> grid_;
+  std::vector<char> at_face_;  ///< per block of the domain: a point of it may lie outside
   const Walls& walls_;
   WallPoses poses_;
   std::unique_ptr<WallField> field_;                              ///< absent without walls
