@@ -11,6 +11,7 @@ namespace sluice {
 void WaterDamBreak::keys(Schema& s) {
   s.number("cells", cells, {.at_least = 4, .doc = "grid cells in the depth behind the dam"});
   s.number("time", time, {.above = 0, .doc = "when it is looked at, over sqrt(h0 / g)"});
+  s.number("tail", tail, {.at_least = 0, .below = 1, .doc = "depth of the water ahead, over h0"});
 }
 
 Measured WaterDamBreak::run(const CsvTable& reference) const {
@@ -30,14 +31,24 @@ Measured WaterDamBreak::run(const CsvTable& reference) const {
   std::vector<Wall> walls;
   walls.push_back(sheet("floor", {Vec3(-behind - h, -width, 0), Vec3(ahead + h, -width, 0),
                                   Vec3(ahead + h, 2 * width, 0), Vec3(-behind - h, 2 * width, 0)}));
-  walls.push_back(sheet("end", {Vec3(-behind, -width, -h), Vec3(-behind, 2 * width, -h),
-                                Vec3(-behind, 2 * width, 1.5), Vec3(-behind, -width, 1.5)}));
+  const double far = ahead - h;  // where water that lies ahead is held
+  for (const double end : {-behind, far})
+    if (end < 0 || tail > 0)
+      walls.push_back(sheet("end", {Vec3(end, -width, -h), Vec3(end, 2 * width, -h),
+                                    Vec3(end, 2 * width, 1.5), Vec3(end, -width, 1.5)}));
   WaterScene scene(setup, std::move(walls));
   const double c = scene.water->limits().sound_speed;
   WaterFill fill;
   fill.box = {Vec3(-behind, 0, 0), Vec3(0, width, 1)};
   fill.pressure = [&](const Vec3& x) { return still_pressure(setup.config.fluid.density, g, c, 1 - x.z()); };
   scene.fill(fill);
+  if (tail > 0) {
+    fill.box = {Vec3::Zero(), Vec3(far, width, tail)};
+    fill.pressure = [&](const Vec3& x) {
+      return still_pressure(setup.config.fluid.density, g, c, tail - x.z());
+    };
+    scene.fill(fill);
+  }
   scene.run_to(time / std::sqrt(g));
 
   const double column = 2 * h;
