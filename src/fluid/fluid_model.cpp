@@ -87,7 +87,6 @@ double apparent_viscosity(const FluidModel& model, const FlowCurve& curve, doubl
 }
 
 double largest_viscosity(const FluidModel& model, double phi) {
-  if (model.rheology == Rheology::newtonian) return slurry_viscosity(model, phi);
   return apparent_viscosity(model, flow_curve(model, phi), 0);
 }
 

@@ -42,7 +42,7 @@ struct FlowCurve {
 /// K g^((n + 1) / 2) (1 - phi)^((1 - n) / 2) and tau_y sqrt(g (1 - phi)), where g is the factor of Krieger &
 /// Dougherty on a Newtonian liquid (Chateau, Ovarlez & Trung 2008, J. Rheol. 52:489).
 FlowCurve flow_curve(const FluidModel& model, double phi);
-/// Stress over rate of shear [Pa s], regularised. @param rate  [1/s]
+/// Stress over rate of shear [Pa s], regularised; of a Newtonian liquid its viscosity. @param rate  [1/s]
 double apparent_viscosity(const FluidModel& model, const FlowCurve& curve, double rate);
 /// The largest that a slurry can have, which bounds the time step: at rest [Pa s].
 double largest_viscosity(const FluidModel& model, double phi);

@@ -32,14 +32,14 @@ ExplicitMpm<Real>::ExplicitMpm(const MpmConfig& config, const Domain& domain, co
     : config_(config),
       domain_(domain),
       gravity_(gravity),
+      walls_(walls),
+      poses_(walls),
       limits_(step_limits(config, gravity, largest_viscosity(config.fluid, 0) / config.fluid.density,
-                          WallPoses(walls).fastest())),
+                          poses_.fastest())),
       sound_speed_(limits_.sound_speed),
       layout_(domain, config.spacing),
       store_(layout_),
       grid_(layout_),
-      walls_(walls),
-      poses_(walls),
       yields_(config.fluid.rheology != Rheology::newtonian),
       largest_kinematic_viscosity_(largest_viscosity(config.fluid, 0) / config.fluid.density),
       loads_(walls.size()) {
@@ -88,9 +88,10 @@ std::uint64_t ExplicitMpm<Real>::add(const NewPoint& point) {
   p.x[3] = static_cast<Real>(point.J - 1.0);
   p.v[3] = static_cast<Real>(point.mass);
   p.C[0][3] = static_cast<Real>(volume);
-  p.C[1][3] = static_cast<Real>(slurry_viscosity(fluid, phi));
+  const double viscosity = largest_viscosity(fluid, phi);  // it is not sheared yet
+  p.C[1][3] = static_cast<Real>(viscosity);
   p.C[2][3] = 1;
-  const double kinematic = largest_viscosity(fluid, phi) * volume / point.mass;
+  const double kinematic = viscosity * volume / point.mass;
   if (kinematic > largest_kinematic_viscosity_) {
     largest_kinematic_viscosity_ = kinematic;
     limits_ = step_limits(config_, gravity_, kinematic, poses_.fastest());
@@ -136,40 +137,19 @@ WaterPoints ExplicitMpm<Real>::points() const {
 template <class Real>
 std::vector<RemovedPoint> ExplicitMpm<Real>::remove_if(
     const std::function<bool(const Vec3& before, const Vec3& now)>& leaves) {
-  constexpr std::size_t chunk = 2048;
-  std::vector<std::vector<std::uint32_t>> found((store_.slots() + chunk - 1) / chunk);
-  parallel_chunks(store_.slots(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    for (std::size_t slot = begin; slot < end; ++slot) {
-      if (!store_.alive(slot)) continue;
-      const Point& p = store_.points[slot];
-      const Vec3 corner = layout_.node_position(layout_.cell_of(store_.key[slot]));
-      const double h = config_.spacing;
-      const Place& before = store_.before[slot];
-      if (leaves(corner + h * Vec3(before[0], before[1], before[2]),
-                 corner + h * Vec3(p.x[0], p.x[1], p.x[2])))
-        found[c].push_back(static_cast<std::uint32_t>(slot));
-    }
+  return remove_slots([&](std::size_t slot) {
+    const std::int32_t key = store_.key[slot];
+    return leaves(position(store_.before[slot], key), position(store_.points[slot].x, key));
   });
-  std::vector<std::uint32_t> slots;
-  for (const auto& list : found) slots.insert(slots.end(), list.begin(), list.end());
-  return remove_slots(slots);
 }
 
 template <class Real>
 std::vector<RemovedPoint> ExplicitMpm<Real>::remove_outside() {
-  constexpr std::size_t chunk = 2048;
-  std::vector<std::vector<std::uint32_t>> found((store_.slots() + chunk - 1) / chunk);
-  parallel_chunks(store_.slots(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
-    for (std::size_t slot = begin; slot < end; ++slot) {
-      const std::int32_t key = store_.key[slot];
-      if (key == BlockLayout::none || !at_face_[static_cast<std::size_t>(key >> 6)]) continue;
-      if (domain_.outside(position(store_.points[slot].x, key)))
-        found[c].push_back(static_cast<std::uint32_t>(slot));
-    }
+  return remove_slots([&](std::size_t slot) {
+    const std::int32_t key = store_.key[slot];
+    return at_face_[static_cast<std::size_t>(key >> 6)] &&
+           domain_.outside(position(store_.points[slot].x, key));
   });
-  std::vector<std::uint32_t> slots;
-  for (const auto& list : found) slots.insert(slots.end(), list.begin(), list.end());
-  return remove_slots(slots);
 }
 
 template <class Real>
@@ -184,8 +164,18 @@ void ExplicitMpm<Real>::find_faces() {
   }
 }
 
+/// Removes the slots for which leaves(slot) says so; called in parallel.
 template <class Real>
-std::vector<RemovedPoint> ExplicitMpm<Real>::remove_slots(std::vector<std::uint32_t>& slots) {
+template <class Leaves>
+std::vector<RemovedPoint> ExplicitMpm<Real>::remove_slots(const Leaves& leaves) {
+  constexpr std::size_t chunk = 2048;
+  std::vector<std::vector<std::uint32_t>> found((store_.slots() + chunk - 1) / chunk);
+  parallel_chunks(store_.slots(), chunk, [&](std::size_t c, std::size_t begin, std::size_t end) {
+    for (std::size_t slot = begin; slot < end; ++slot)
+      if (store_.alive(slot) && leaves(slot)) found[c].push_back(static_cast<std::uint32_t>(slot));
+  });
+  std::vector<std::uint32_t> slots;
+  for (const auto& list : found) slots.insert(slots.end(), list.begin(), list.end());
   std::sort(slots.begin(), slots.end(),
             [&](std::uint32_t a, std::uint32_t b) { return store_.id[a] < store_.id[b]; });
   std::vector<RemovedPoint> removed;

@@ -137,7 +137,8 @@ class ExplicitMpm final : public FluidSystem {
     Vector moved[batch];
   };
 
-  std::vector<RemovedPoint> remove_slots(std::vector<std::uint32_t>& slots);
+  template <class Leaves>
+  std::vector<RemovedPoint> remove_slots(const Leaves& leaves);
   void find_faces();
   void place_walls(double t, double dt);
   void prepare_block(std::int32_t slot);
@@ -205,15 +206,15 @@ class ExplicitMpm final : public FluidSystem {
   MpmConfig config_;
   Domain domain_;
   Vec3 gravity_;
+  const Walls& walls_;
+  WallPoses poses_;
   FluidStepLimits limits_;
   double sound_speed_ = 0;
   BlockLayout layout_;
   PointStore<Real> store_;
   NodeBlocks<Real> grid_;
-  std::vector<char> at_face_;  ///< per block of the domain: a point of it may lie outside
-  const Walls& walls_;
-  WallPoses poses_;
-  std::unique_ptr<WallField> field_;                              ///< absent without walls
+  std::vector<char> at_face_;         ///< per block of the domain: a point of it may lie outside
+  std::unique_ptr<WallField> field_;  ///< absent without walls
   std::array<Vec3i, 2> looked_at_{Vec3i::Zero(), Vec3i::Zero()};  ///< nodes that a field of moved walls knows
 
   StepNumbers step_;

@@ -110,6 +110,24 @@ void ExplicitMpm<Real>::gather_kept(const Point& p, int local, const NodeTile& t
       }
 }
 
+/// Where the viscosity depends on the rate of shear, sqrt(2 D:D) without the part that changes volume [Pa s].
+template <class Real>
+Real ExplicitMpm<Real>::sheared_viscosity(const Point& p) const {
+  const double third = static_cast<double>(p.C[0][0] + p.C[1][1] + p.C[2][2]) / 3;
+  double squares = 0;
+  for (int r = 0; r < 3; ++r) {
+    const double along = static_cast<double>(p.C[r][r]) - third;
+    squares += along * along;
+    for (int c = 0; c < r; ++c) {
+      const double across = 0.5 * static_cast<double>(p.C[c][r] + p.C[r][c]);
+      squares += 2 * across * across;
+    }
+  }
+  const double density = static_cast<double>(p.mass() / p.volume());
+  const FlowCurve curve = flow_curve(config_.fluid, fines_at(density));
+  return static_cast<Real>(apparent_viscosity(config_.fluid, curve, std::sqrt(2 * squares)));
+}
+
 /// New velocity, C and J of a point, and how far it moves [cells].
 template <class Real>
 auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
@@ -182,6 +200,11 @@ void ExplicitMpm<Real>::move_cell(std::span<const std::uint32_t> slots, std::siz
   }
   for (std::size_t n = 0; n < count; ++n)
     scratch.moved[n] = update(store_.points[slots[n]], scratch.gathered[n]);
+  if (yields_)
+    for (const std::uint32_t slot : slots) {
+      Point& p = store_.points[slot];
+      p.C[1][3] = sheared_viscosity(p);
+    }
   for (std::size_t n = 0; n < count; ++n) {
     const std::uint32_t slot = slots[n];
     Point& p = store_.points[slot];

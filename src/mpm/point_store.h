@@ -26,7 +26,7 @@ struct MaterialPoint {
   Real dilation() const { return x[3]; }
   Real mass() const { return v[3]; }          ///< [kg]
   Real volume() const { return C[0][3]; }     ///< at rest [m3]
-  Real viscosity() const { return C[1][3]; }  ///< [Pa s]
+  Real viscosity() const { return C[1][3]; }  ///< at the point's rate of shear [Pa s]
   /// Of the mixture around it, 1 without rocks.
   Real void_fraction() const { return C[2][3]; }
 };

@@ -126,24 +126,6 @@ void ExplicitMpm<Real>::pour_loads(std::size_t lists) {
   }
 }
 
-/// Where the viscosity depends on the rate of shear, sqrt(2 D:D) without the part that changes volume [Pa s].
-template <class Real>
-Real ExplicitMpm<Real>::sheared_viscosity(const Point& p) const {
-  const double third = static_cast<double>(p.C[0][0] + p.C[1][1] + p.C[2][2]) / 3;
-  double squares = 0;
-  for (int r = 0; r < 3; ++r) {
-    const double along = static_cast<double>(p.C[r][r]) - third;
-    squares += along * along;
-    for (int c = 0; c < r; ++c) {
-      const double across = 0.5 * static_cast<double>(p.C[c][r] + p.C[r][c]);
-      squares += 2 * across * across;
-    }
-  }
-  const double density = static_cast<double>(p.mass() / p.volume());
-  const FlowCurve curve = flow_curve(config_.fluid, fines_at(density));
-  return static_cast<Real>(apparent_viscosity(config_.fluid, curve, std::sqrt(2 * squares)));
-}
-
 /// At a node whose distance is d cells, a point gives w times its momentum m (v + C h d), its stress, and so
 /// on.
 template <class Real>
@@ -152,7 +134,7 @@ void ExplicitMpm<Real>::contribute(const Point& p, Contribution& a) const {
   const Real now = p.volume() * (1 + e), volume = now * per_void;
   const Vector C[3] = {with_fourth(p.C[0], Real(0)), with_fourth(p.C[1], Real(0)),
                        with_fourth(p.C[2], Real(0))};
-  const Real drag = step_.stress * volume * (yields_ ? sheared_viscosity(p) : p.viscosity());
+  const Real drag = step_.stress * volume * p.viscosity();
   // V p = -m c2 (J - 1): the volume cancels in p = (m / V0) c2 (1/J - 1).
   const Real push =
       -step_.stress * m * step_.c2 * e * per_void + drag * (C[0][0] + C[1][1] + C[2][2]) * Real(2.0 / 3.0);

@@ -176,12 +176,6 @@ class Foresight {
                         spray.speed(water.fluid.density), stated));
   }
 
-  double viscosity_of(double rate) const {
-    const FluidModel& fluid = config_.water->fluid;
-    if (fluid.rheology == Rheology::newtonian) return fluid.viscosity;
-    return apparent_viscosity(fluid, flow_curve(fluid, 0), rate);
-  }
-
   void viscosity() {
     const MpmConfig& water = *config_.water;
     const FluidStepLimits& limits = parts_.water->limits();
@@ -193,7 +187,8 @@ class Foresight {
           yields ? "at rest " : "", limits.acoustic / limits.viscous, limits.step,
           yields ? "raise 'yield_rate'" : "lower 'viscosity'"));
     if (water.wall_slip == WallSlip::no_slip) return;
-    const double viscosity = viscosity_of(water.fastest_bulk_speed / water.spacing);
+    const double viscosity =
+        apparent_viscosity(water.fluid, flow_curve(water.fluid, 0), water.fastest_bulk_speed / water.spacing);
     const double cell_reynolds = water.fastest_bulk_speed * water.spacing * water.fluid.density / viscosity;
     if (water.fluid.yield_stress > 0)
       say("water: it has a yield stress, which walls without 'wall_slip: no_slip' do not feel: it will not "
