@@ -25,13 +25,7 @@ Measured CouplingDam::run(const CsvTable& reference) const {
   setup.water.config.deepest = height;
   setup.water.gravity = {0, 0, -g};
   setup.water.domain = water_domain({Vec3(-h, 0, -h), Vec3(length + h, width, 0.6)}, {false, true, false});
-  std::vector<Wall> walls;
-  walls.push_back(sheet("floor", {Vec3(-h, -width, 0), Vec3(length + h, -width, 0),
-                                  Vec3(length + h, 2 * width, 0), Vec3(-h, 2 * width, 0)}));
-  for (const double x : {0.0, length})
-    walls.push_back(sheet(
-        "end", {Vec3(x, -width, -h), Vec3(x, 2 * width, -h), Vec3(x, 2 * width, 0.6), Vec3(x, -width, 0.6)}));
-  ImmersedScene scene(setup, std::move(walls));
+  ImmersedScene scene(setup, trough(length, width, 0.6, h));
   const double c = scene.fluid.water->limits().sound_speed;
   WaterFill fill;
   fill.box = {Vec3::Zero(), Vec3(height, width, height)};

@@ -51,6 +51,16 @@ Wall sheet(const char* name, const std::array<Vec3, 4>& corners) {
   return wall;
 }
 
+std::vector<Wall> trough(double length, double width, double top, double beyond) {
+  std::vector<Wall> walls;
+  walls.push_back(sheet("floor", {Vec3(-beyond, -width, 0), Vec3(length + beyond, -width, 0),
+                                  Vec3(length + beyond, 2 * width, 0), Vec3(-beyond, 2 * width, 0)}));
+  for (const double x : {0.0, length})
+    walls.push_back(sheet("end", {Vec3(x, -width, -beyond), Vec3(x, 2 * width, -beyond),
+                                  Vec3(x, 2 * width, top), Vec3(x, -width, top)}));
+  return walls;
+}
+
 Domain water_domain(const Box& box, std::array<bool, 3> periodic) {
   Domain domain;
   domain.box = box;

@@ -41,6 +41,9 @@ class WaterScene {
 
 /// Rectangle through four corners, in order.
 Wall sheet(const char* name, const std::array<Vec3, 4>& corners);
+/// Floor and ends of a tank along x, from 0 to `length`, for a domain that is periodic across, `width` wide.
+/// Sheets that reach `beyond` one another.
+std::vector<Wall> trough(double length, double width, double top, double beyond);
 /// Open box whose faces along an axis are periodic.
 Domain water_domain(const Box& box, std::array<bool, 3> periodic);
 

@@ -27,13 +27,7 @@ Measured WaterSloshing::run(const CsvTable& reference) const {
   setup.config.wall_slip = WallSlip::slip;
   setup.gravity = {0, 0, -g};
   setup.domain = water_domain({Vec3(-h, 0, -h), Vec3(length + h, width, top)}, {false, true, false});
-  std::vector<Wall> walls;
-  walls.push_back(sheet("floor", {Vec3(-h, -width, 0), Vec3(length + h, -width, 0),
-                                  Vec3(length + h, 2 * width, 0), Vec3(-h, 2 * width, 0)}));
-  for (const double x : {0.0, length})
-    walls.push_back(sheet(
-        "end", {Vec3(x, -width, -h), Vec3(x, 2 * width, -h), Vec3(x, 2 * width, top), Vec3(x, -width, top)}));
-  WaterScene scene(setup, std::move(walls));
+  WaterScene scene(setup, trough(length, width, top, h));
   const double c = scene.water->limits().sound_speed;
   const auto mode = [&](const Vec3& x) -> Vec3 {  // unit amplitude of the surface's speed
     return Vec3(-std::sin(k * x.x()) * std::cosh(k * x.z()), 0, std::cos(k * x.x()) * std::sinh(k * x.z())) /

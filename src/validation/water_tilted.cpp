@@ -57,12 +57,7 @@ Measured WaterTilted::run(const CsvTable& reference) const {
   setup.gravity = {0, 0, -g};
   setup.domain =
       water_domain({Vec3(-0.15, 0, -0.15), Vec3(length + 0.2, width, top + 0.15)}, {false, true, false});
-  std::vector<Wall> walls;
-  walls.push_back(sheet("floor", {Vec3(0, -width, 0), Vec3(length, -width, 0), Vec3(length, 2 * width, 0),
-                                  Vec3(0, 2 * width, 0)}));
-  for (const double x : {0.0, length})
-    walls.push_back(sheet(
-        "end", {Vec3(x, -width, 0), Vec3(x, 2 * width, 0), Vec3(x, 2 * width, top), Vec3(x, -width, top)}));
+  std::vector<Wall> walls = trough(length, width, top, 0);
   for (Wall& wall : walls) wall.motion = motion;
   WaterScene scene(setup, std::move(walls));
   const double c = scene.water->limits().sound_speed;
