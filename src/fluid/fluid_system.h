@@ -11,6 +11,7 @@
 #include "base/domain.h"
 #include "base/load.h"
 #include "base/state_archive.h"
+#include "fluid/fluid_body.h"
 #include "fluid/fluid_model.h"
 #include "fluid/water_points.h"
 
@@ -74,6 +75,12 @@ class FluidSystem {
   /// Fraction of the space at each node that rocks leave free, in the order of read_nodes; acts where
   /// fluid and rock together fill the space. Held until set again; not called = 1 everywhere.
   virtual void set_void_fraction(std::span<const double> void_fraction) = 0;
+
+  /// Bodies that the fluid meets in the next step, besides the walls; held until set again, but to be set
+  /// before each step in which they move. For the coupling, before points_to_grid.
+  virtual void set_bodies(std::span<const FluidBody> bodies) = 0;
+  /// What each of them received since they were set.
+  virtual const std::vector<BodyLoad>& body_loads() const = 0;
 
   virtual const std::vector<WallLoad>& wall_loads() const = 0;  ///< one per wall
   virtual Vec3 momentum() const = 0;                            ///< [N s]

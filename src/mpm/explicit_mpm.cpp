@@ -44,11 +44,15 @@ ExplicitMpm<Real>::ExplicitMpm(const MpmConfig& config, const Domain& domain, co
       largest_kinematic_viscosity_(largest_viscosity(config.fluid, 0) / config.fluid.density),
       loads_(walls.size()) {
   find_faces();
-  bool blocks_water = false;
-  for (const Wall& wall : walls.all())
-    blocks_water = blocks_water || (wall.blocks != BlocksPhase::rocks_only && !wall.mesh.triangles.empty());
-  if (blocks_water)
-    field_ = std::make_unique<WallField>(walls, poses_, domain, layout_.origin(), config.spacing);
+  bool stand = false;
+  for (std::size_t w = 0; w < walls.size(); ++w) {
+    const Wall& wall = walls.all()[w];
+    stand = stand || (wall.blocks != BlocksPhase::rocks_only && !wall.mesh.triangles.empty() &&
+                      poses_.body_of(static_cast<int>(w)) < 0);
+  }
+  if (stand)
+    field_ = std::make_unique<WallField>(walls, poses_, domain, layout_.origin(), config.spacing,
+                                         WhichWalls::standing);
 }
 
 template <class Real>
@@ -243,7 +247,8 @@ std::size_t ExplicitMpm<Real>::memory_bytes() const {
          gather_scratch_.capacity() * sizeof(GatherScratch) + blocks_of_colours * sizeof(std::uint32_t) +
          node_begin_.capacity() * sizeof(std::uint32_t) + impulse_.capacity() * sizeof(Vec3) +
          impulses_.capacity() * sizeof(WallImpulses) + reports_.capacity() * sizeof(BlockReport) +
-         at_face_.capacity() + (field_ ? field_->memory_bytes() : 0);
+         at_face_.capacity() + (field_ ? field_->memory_bytes() : 0) +
+         (moving_field_ ? moving_field_->memory_bytes() : 0);
 }
 
 template <class Real>

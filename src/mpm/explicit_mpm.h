@@ -54,6 +54,8 @@ class ExplicitMpm final : public FluidSystem {
   void read_nodes(FluidNodes& nodes) const override;
   void add_impulse(std::span<const Vec3> impulse) override;
   void set_void_fraction(std::span<const double> void_fraction) override;
+  void set_bodies(std::span<const FluidBody> bodies) override;
+  const std::vector<BodyLoad>& body_loads() const override { return body_loads_; }
   const std::vector<WallLoad>& wall_loads() const override { return loads_; }
   Vec3 momentum() const override;
   Vec3 impulse_from_gravity() const override { return gravity_impulse_; }
@@ -181,9 +183,23 @@ class ExplicitMpm final : public FluidSystem {
   void check_reports();
   void pour_loads(std::size_t lists);
 
+  /// Where a stencil's record of walls is: in the field of what stands, or in that of what moves.
+  struct WallRecord {
+    const WallField* field = nullptr;
+    int stencil = -1;
+  };
+  static constexpr std::int32_t first_moving = 1
+                                               << 28;  ///< stencils from here on are of the field that moves
+  WallRecord record_of(std::int32_t stencil) const {
+    if (stencil < first_moving) return {field_.get(), stencil};
+    return {moving_field_.get(), stencil - first_moving};
+  }
+  bool has_walls() const { return field_ || moving_field_; }
   Real open_fraction(std::int32_t slot, int node) const {
     const std::int32_t stencil = grid_.stencil(slot)[node];
-    return stencil < 0 ? Real(1) : static_cast<Real>(field_->open_fraction_at(stencil));
+    if (stencil < 0) return Real(1);
+    const WallRecord record = record_of(stencil);
+    return static_cast<Real>(record.field->open_fraction_at(record.stencil));
   }
   Vec3 velocity_of(const Point& p) const { return Vec3(p.v[0], p.v[1], p.v[2]); }
   /// By volume; fines are what makes the fluid denser. @param density  without pressure [kg/m3]
@@ -213,9 +229,10 @@ class ExplicitMpm final : public FluidSystem {
   BlockLayout layout_;
   PointStore<Real> store_;
   NodeBlocks<Real> grid_;
-  std::vector<char> at_face_;         ///< per block of the domain: a point of it may lie outside
-  std::unique_ptr<WallField> field_;  ///< absent without walls
-  std::array<Vec3i, 2> looked_at_{Vec3i::Zero(), Vec3i::Zero()};  ///< nodes that a field of moved walls knows
+  std::vector<char> at_face_;                ///< per block of the domain: a point of it may lie outside
+  std::unique_ptr<WallField> field_;         ///< of walls that stand; absent without
+  std::unique_ptr<WallField> moving_field_;  ///< of walls and bodies that move and what stands beside them
+  std::array<Vec3i, 2> looked_at_{Vec3i::Zero(), Vec3i::Zero()};  ///< nodes that the field that moves knows
 
   StepNumbers step_;
   std::vector<ScatterScratch> scatter_scratch_;      ///< per thread
@@ -237,6 +254,7 @@ class ExplicitMpm final : public FluidSystem {
   double kinetic_added_ = 0, kinetic_removed_ = 0;
   double wall_work_ = 0;
   std::vector<WallLoad> loads_;
+  std::vector<BodyLoad> body_loads_;
 };
 
 template <class Real>

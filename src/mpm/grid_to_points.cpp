@@ -28,7 +28,7 @@ void ExplicitMpm<Real>::grid_to_points(double dt) {
                          load_tile(store_.blocks()[b], scratch.tile);
                          move_block(b, scratch);
                        });
-  if (field_) pour_loads(blocks);
+  if (has_walls()) pour_loads(blocks);
   check_reports();
 }
 

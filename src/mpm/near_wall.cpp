@@ -13,6 +13,7 @@ namespace sluice {
 namespace {
 constexpr double stand_off = 1e-4;  ///< of a stopped point from its wall [cells]
 constexpr int most_path_hits = 3;   ///< a corner of three walls
+constexpr int most_bodies = 16;     ///< within reach of a point
 /// Weight of the visible nodes from which on their mean speaks for the hidden ones; below, gravity fills in.
 constexpr double enough_seen = 0.25;
 
@@ -50,10 +51,12 @@ Vec3 offset_of(const Triple& x) {
 template <class Real>
 void ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil,
                                    Contribution& a, WallImpulses& impulses) const {
-  Surroundings around{.field = *field_, .h = config_.spacing, .x = position(p.x, cell_key)};
-  field_->visibility(stencil, layout_.cell_of(cell_key) - Vec3i::Ones(), around.x, around.seen);
+  const WallRecord record = record_of(stencil);
+  const WallField& field = *record.field;
+  Surroundings around{.field = field, .h = config_.spacing, .x = position(p.x, cell_key)};
+  field.visibility(record.stencil, layout_.cell_of(cell_key) - Vec3i::Ones(), around.x, around.seen);
   const int needed = around.seen.hidden != 0 ? most_planes : 1;
-  around.plane_count = field_->planes_of_point(stencil, around.x, around.planes, needed);
+  around.plane_count = field.planes_of_point(record.stencil, around.x, around.planes, needed);
   if (around.plane_count > 0) a.middle[node_lane::near_wall] = p.mass();
   if (around.seen.hidden == 0) return;
 
@@ -75,14 +78,16 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
                                          const NodeTile& tile, Gathered& g, WallImpulses& impulses) const {
   using namespace node_lane;
   const int local = cell_key & 63;
-  Surroundings around{.field = *field_, .h = config_.spacing, .x = position(p.x, cell_key)};
-  field_->visibility(stencil, layout_.cell_of(cell_key) - Vec3i::Ones(), around.x, around.seen);
+  const WallRecord record = record_of(stencil);
+  const WallField& field = *record.field;
+  Surroundings around{.field = field, .h = config_.spacing, .x = position(p.x, cell_key)};
+  field.visibility(record.stencil, layout_.cell_of(cell_key) - Vec3i::Ones(), around.x, around.seen);
   if (around.seen.hidden == 0) {
     gather(p, local, tile, g);
     return;
   }
 
-  around.plane_count = field_->planes_of_point(stencil, around.x, around.planes, most_planes);
+  around.plane_count = field.planes_of_point(record.stencil, around.x, around.planes, most_planes);
   const Vec3 v = velocity_of(p);
   std::uint32_t holds = 0;
   Vec3 wall_velocity[most_planes], wall_change[most_planes];
@@ -199,13 +204,19 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
 template <class Real>
 std::optional<WallHit> ExplicitMpm<Real>::first_hit(std::int32_t stencil, const Vec3& from,
                                                     const Vec3& to) const {
-  if (!poses_.any()) return field_->first_hit(stencil, from, to);
-  std::optional<WallHit> first = field_->first_hit(stencil, from, to, -1);
-  for (int body = 0; body < poses_.bodies(); ++body) {
-    std::optional<WallHit> hit = field_->first_hit(stencil, from, poses_.to_start(body, to), body);
+  const WallRecord record = record_of(stencil);
+  if (stencil < first_moving) return record.field->first_hit(record.stencil, from, to);
+  std::optional<WallHit> first;
+  std::array<int, most_bodies> bodies;
+  const int count = record.field->bodies_near(record.stencil, bodies.data(), most_bodies);
+  for (const int body : std::span(bodies).first(static_cast<std::size_t>(count))) {
+    const Vec3 end = body < 0 ? to : poses_.to_start(body, to);
+    std::optional<WallHit> hit = record.field->first_hit(record.stencil, from, end, body);
     if (!hit || (first && first->s <= hit->s)) continue;
-    hit->point = poses_.to_end(body, hit->point);
-    hit->normal = poses_.turned_to_end(body, hit->normal);
+    if (body >= 0) {
+      hit->point = poses_.to_end(body, hit->point);
+      hit->normal = poses_.turned_to_end(body, hit->normal);
+    }
     first = hit;
   }
   return first;

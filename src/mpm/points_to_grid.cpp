@@ -29,10 +29,11 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   step_.shift = static_cast<Real>(0.5 / t_anchor * dt);
 
   store_.bin();
+  const bool moving = poses_.any() || moving_field_;
   grid_.activate(store_.blocks(), [&](std::int32_t slot) {
-    if (!poses_.any()) prepare_block(slot);
+    if (!moving) prepare_block(slot);
   });
-  if (poses_.any()) place_walls(t, dt);
+  if (moving) place_walls(t, dt);
   const std::size_t blocks = store_.blocks().size();
   colour_blocks();
   if (impulses_.size() < std::max(blocks, grid_.active().size()))
@@ -51,7 +52,7 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
                          [&](ScatterScratch& scratch, std::size_t, std::size_t n, std::size_t) {
                            scatter_block(colour[n], scratch);
                          });
-  if (field_) pour_loads(blocks);
+  if (has_walls()) pour_loads(blocks);
   double mass = 0;
   for (const BlockReport& r : reports_) mass += r.mass;
   gravity_impulse_ += mass * dt * gravity_;
@@ -92,9 +93,12 @@ void ExplicitMpm<Real>::place_walls(double t, double dt) {
     reach[1] = reach[1].cwiseMax((lowest.array() + (BlockLayout::edge - 1)).matrix());
   }
   const bool moved = poses_.place(t, dt);
-  if (moved || (reach[0].array() < looked_at_[0].array()).any() ||
-      (reach[1].array() > looked_at_[1].array()).any()) {
-    field_ = std::make_unique<WallField>(walls_, poses_, domain_, layout_.origin(), config_.spacing, reach);
+  if (!poses_.any()) {
+    moving_field_.reset();
+  } else if (moved || !moving_field_ || (reach[0].array() < looked_at_[0].array()).any() ||
+             (reach[1].array() > looked_at_[1].array()).any()) {
+    moving_field_ = std::make_unique<WallField>(walls_, poses_, domain_, layout_.origin(), config_.spacing,
+                                                WhichWalls::near_moving, reach);
     looked_at_ = reach;
   }
   parallel_for(
@@ -102,26 +106,42 @@ void ExplicitMpm<Real>::place_walls(double t, double dt) {
 }
 
 template <class Real>
+void ExplicitMpm<Real>::set_bodies(std::span<const FluidBody> bodies) {
+  poses_.set_bodies(bodies, domain_, 4 * config_.spacing);
+  body_loads_.assign(bodies.size(), {});
+}
+
+template <class Real>
 void ExplicitMpm<Real>::prepare_block(std::int32_t slot) {
-  if (!field_) return;
   const Vec3i place = layout_.block_place(grid_.block_of(slot));
   const Vec3i width = layout_.width(place);
   for (int k = 0; k < width.z(); ++k)
     for (int j = 0; j < width.y(); ++j)
       for (int i = 0; i < width.x(); ++i) {
         const Vec3i node = BlockLayout::edge * place + Vec3i(i, j, k);
-        grid_.stencil(slot)[i + 4 * j + 16 * k] = field_->stencil(node - Vec3i::Ones());
+        std::int32_t& stencil = grid_.stencil(slot)[i + 4 * j + 16 * k];
+        stencil = moving_field_ ? moving_field_->stencil(node - Vec3i::Ones()) : -1;
+        if (stencil >= 0)
+          stencil += first_moving;
+        else if (field_)
+          stencil = field_->stencil(node - Vec3i::Ones());
       }
 }
 
 template <class Real>
 void ExplicitMpm<Real>::pour_loads(std::size_t lists) {
   for (std::size_t b = 0; b < lists; ++b) {
-    if (poses_.any())
-      impulses_[b].for_each([&](int wall, const WallLoad& load) {
+    impulses_[b].for_each([&](int wall, const WallLoad& load) {
+      const int body = poses_.free_body(wall);
+      if (body < 0) {
+        loads_[static_cast<std::size_t>(wall)] += load;
         wall_work_ -= poses_.work(wall, load.impulse, load.angular_impulse);
-      });
-    impulses_[b].pour_into(loads_);
+        return;
+      }
+      BodyLoad& on_body = body_loads_[static_cast<std::size_t>(body)];
+      on_body.impulse += load.impulse;
+      on_body.angular_impulse += load.angular_impulse - poses_.centre(wall).cross(load.impulse);
+    });
     impulses_[b].clear();
   }
 }
@@ -283,10 +303,12 @@ template void ExplicitMpm<float>::share_step(double);
 template void ExplicitMpm<float>::prepare_block(std::int32_t);
 template void ExplicitMpm<float>::place_walls(double, double);
 template void ExplicitMpm<float>::pour_loads(std::size_t);
+template void ExplicitMpm<float>::set_bodies(std::span<const FluidBody>);
 template void ExplicitMpm<double>::points_to_grid(double, double);
 template void ExplicitMpm<double>::share_step(double);
 template void ExplicitMpm<double>::prepare_block(std::int32_t);
 template void ExplicitMpm<double>::place_walls(double, double);
 template void ExplicitMpm<double>::pour_loads(std::size_t);
+template void ExplicitMpm<double>::set_bodies(std::span<const FluidBody>);
 
 }  // namespace sluice

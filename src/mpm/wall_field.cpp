@@ -29,6 +29,10 @@ std::array<Vec3i, 2> recorded_bases(const WallPatches& walls, const Domain& doma
   for (int k = 0; k < 3; ++k) {
     lo[k] = static_cast<int>(std::floor(std::max(box.lo[k] - halo - 1, near_walls.lo[k])));
     hi[k] = static_cast<int>(std::ceil(std::min(box.hi[k] + halo, near_walls.hi[k])));
+    if (walls.only) {
+      lo[k] = std::max(lo[k], walls.only->lowest()[k]);
+      hi[k] = std::min(hi[k], walls.only->highest()[k]);
+    }
     lo[k] = std::max(lo[k], nodes[0][k] - 2);  // of a point beside the lowest node
     hi[k] = std::min(hi[k], nodes[1][k] + 1);
   }
@@ -61,12 +65,12 @@ struct WallField::Implementation {
   };
 
   Implementation(const Walls& walls, const WallPoses& all_poses, const Domain& domain,
-                 const Vec3& grid_origin, double spacing, const std::array<Vec3i, 2>& nodes)
+                 const Vec3& grid_origin, double spacing, WhichWalls which, const std::array<Vec3i, 2>& nodes)
       : poses(all_poses),
         origin(grid_origin),
         h(spacing),
         per_h(1 / spacing),
-        patches(make_wall_patches(walls, all_poses, domain, grid_origin, spacing)),
+        patches(make_wall_patches(walls, all_poses, domain, grid_origin, spacing, which)),
         bases(recorded_bases(patches, domain, grid_origin, spacing, nodes)),
         stencils(patches, bases[0], bases[1]) {
     set_up_nodes();
@@ -146,11 +150,12 @@ std::optional<WallHit> WallField::Implementation::first_crossing(const StencilRe
 }
 
 WallField::WallField(const Walls& walls, const WallPoses& poses, const Domain& domain, const Vec3& origin,
-                     double h, const std::array<Vec3i, 2>& nodes)
-    : implementation_(std::make_unique<Implementation>(walls, poses, domain, origin, h, nodes)) {}
+                     double h, WhichWalls which, const std::array<Vec3i, 2>& nodes)
+    : implementation_(std::make_unique<Implementation>(walls, poses, domain, origin, h, which, nodes)) {}
 WallField::WallField(const Walls& walls, const Domain& domain, const Vec3& origin, double h) {
   auto at_rest = std::make_unique<const WallPoses>(walls);
-  implementation_ = std::make_unique<Implementation>(walls, *at_rest, domain, origin, h, all_nodes_of_domain);
+  implementation_ = std::make_unique<Implementation>(walls, *at_rest, domain, origin, h, WhichWalls::all,
+                                                     all_nodes_of_domain);
   implementation_->at_rest = std::move(at_rest);
 }
 WallField::~WallField() = default;
@@ -213,9 +218,23 @@ int WallField::planes_of_point(int stencil, const Vec3& x, WallPlane* out, int m
 
 std::span<const WallPlane> WallField::planes_of_node(const Vec3i& node) const {
   const int record = stencil(node - Vec3i::Ones());
-  if (record < 0) return {};
+  return record < 0 ? std::span<const WallPlane>{} : planes_at(record);
+}
+
+std::span<const WallPlane> WallField::planes_at(int record) const {
   const auto& n = implementation_->nodes[static_cast<std::size_t>(record)];
   return {implementation_->planes.data() + n.planes, static_cast<std::size_t>(n.count)};
+}
+
+int WallField::bodies_near(int stencil, int* out, int max) const {
+  const Implementation& field = *implementation_;
+  int count = 0;
+  for (const StencilPatch& p :
+       field.stencils.patches_of(field.stencils.records[static_cast<std::size_t>(stencil)])) {
+    const int body = field.poses.body_of(field.sight.plane(p).wall);
+    if (count < max && std::find(out, out + count, body) == out + count) out[count++] = body;
+  }
+  return count;
 }
 
 double WallField::open_fraction(const Vec3i& node) const {

@@ -31,6 +31,7 @@
 #include "base/domain.h"
 #include "geometry/wall.h"
 #include "mpm/wall_poses.h"
+#include "mpm/which_walls.h"
 
 namespace sluice {
 
@@ -66,7 +67,7 @@ class WallField {
   /// @param poses  must outlive this
   /// @param nodes  lowest and highest that anything will be asked about
   WallField(const Walls& walls, const WallPoses& poses, const Domain& domain, const Vec3& origin, double h,
-            const std::array<Vec3i, 2>& nodes = all_nodes_of_domain);
+            WhichWalls which, const std::array<Vec3i, 2>& nodes = all_nodes_of_domain);
   /// The same where they rest.
   WallField(const Walls& walls, const Domain& domain, const Vec3& origin, double h);
   ~WallField();
@@ -84,6 +85,11 @@ class WallField {
 
   /// Active planes of a node: as planes_of_point. Empty for nodes without walls near.
   std::span<const WallPlane> planes_of_node(const Vec3i& node) const;
+  /// The same, for the node base + 1 of a stencil.
+  std::span<const WallPlane> planes_at(int stencil) const;
+  /// Bodies of WallPoses, -1 for the walls that stand, that come near a stencil. At most `max` are written;
+  /// returns how many.
+  int bodies_near(int stencil, int* out, int max) const;
   /// Fraction of the node's quadratic B-spline support (weighted) that is on the node's side of the walls
   /// near it, 1 far from walls; never below 0.02. Weighted by the spline, so that full water reads fill = 1.
   /// Not to be asked about one node by two threads at a time.

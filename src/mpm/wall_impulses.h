@@ -22,16 +22,6 @@ class WallImpulses {
   void add_impact(int wall, double energy) { of(wall).impact_energy += energy; }
   void add_sliding(int wall, double energy) { of(wall).sliding_energy += energy; }
 
-  void pour_into(std::vector<WallLoad>& loads) const {
-    for (const Entry& e : entries_) {
-      WallLoad& load = loads[static_cast<std::size_t>(e.wall)];
-      load.impulse += e.load.impulse;
-      load.angular_impulse += e.load.angular_impulse;
-      load.sliding_energy += e.load.sliding_energy;
-      load.impact_energy += e.load.impact_energy;
-    }
-  }
-
   template <class Body>
   void for_each(const Body& body) const {
     for (const Entry& e : entries_) body(e.wall, e.load);

@@ -44,29 +44,67 @@ std::vector<Vec3> image_shifts(const Domain& domain, double h) {
   return shifts;
 }
 
-Soup collect(const Walls& walls, const WallPoses& poses, const Domain& domain, const Vec3& origin, double h) {
-  const Box reach = Box{(domain.box.lo - origin) / h, (domain.box.hi - origin) / h}.grown(image_reach);
-  const std::vector<Vec3> shifts = image_shifts(domain, h);
-  const TriMesh& mesh = walls.mesh();
-  Soup soup;
-  for (const Vec3& shift : shifts) {
-    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-      const int wall = walls.wall_of(static_cast<int>(t));
-      if (walls.all()[static_cast<std::size_t>(wall)].blocks == BlocksPhase::rocks_only) continue;
-      std::array<Vec3, 3> corner;
-      Box box;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vec3& rest = mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])];
-        corner[k] = (poses.to_space(wall, rest) - origin) / h + shift;
-        box.include(corner[k]);
+/// Triangles of walls as grid corners, next to the domain.
+class Collector {
+ public:
+  Collector(const Walls& walls, const WallPoses& poses, const Domain& domain, const Vec3& origin, double h)
+      : walls_(walls), poses_(poses), origin_(origin), h_(h), shifts_(image_shifts(domain, h)) {
+    reach_ = Box{(domain.box.lo - origin) / h, (domain.box.hi - origin) / h}.grown(image_reach);
+  }
+
+  /// Walls of the scene for which wanted(wall) is true.
+  template <class Wanted>
+  void add_scene(const Wanted& wanted, const std::optional<MarkedBases>& only) {
+    const TriMesh& mesh = walls_.mesh();
+    for (const Vec3& shift : shifts_)
+      for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const int wall = walls_.wall_of(static_cast<int>(t));
+        if (walls_.all()[static_cast<std::size_t>(wall)].blocks == BlocksPhase::rocks_only || !wanted(wall))
+          continue;
+        std::array<Vec3, 3> corner;
+        for (std::size_t k = 0; k < 3; ++k)
+          corner[k] =
+              grid(poses_.to_space(wall, mesh.vertices[static_cast<std::size_t>(mesh.triangles[t][k])])) +
+              shift;
+        add(corner, wall, only);
       }
-      if (!box.overlaps(reach)) continue;
-      soup.corners.push_back(corner);
-      soup.wall.push_back(wall);
+  }
+
+  void add_bodies() {
+    for (int wall = static_cast<int>(walls_.size()); wall < poses_.wall_count(); ++wall) {
+      const TriMesh& mesh = poses_.shape(wall);
+      const double size = poses_.size(wall);
+      for (const std::array<int, 3>& triangle : mesh.triangles) {
+        std::array<Vec3, 3> corner;
+        for (std::size_t k = 0; k < 3; ++k)
+          corner[k] =
+              grid(poses_.to_space(wall, size * mesh.vertices[static_cast<std::size_t>(triangle[k])]));
+        add(corner, wall, std::nullopt);
+      }
     }
   }
-  return soup;
-}
+
+  Soup soup;
+  std::vector<Box> boxes;  ///< of its triangles
+
+ private:
+  Vec3 grid(const Vec3& x) const { return (x - origin_) / h_; }
+  void add(const std::array<Vec3, 3>& corner, int wall, const std::optional<MarkedBases>& only) {
+    Box box;
+    for (const Vec3& x : corner) box.include(x);
+    if (!box.overlaps(reach_) || (only && !only->meets(box))) return;
+    soup.corners.push_back(corner);
+    soup.wall.push_back(wall);
+    boxes.push_back(box);
+  }
+
+  const Walls& walls_;
+  const WallPoses& poses_;
+  Vec3 origin_;
+  double h_;
+  std::vector<Vec3> shifts_;
+  Box reach_;
+};
 
 /// Gives corners closer than `tolerance` one index, whatever part or image they come from.
 void weld(Soup& soup, double tolerance) {
@@ -246,10 +284,57 @@ void set_edges(WallTriangle& triangle, const WallPatch& patch) {
 
 }  // namespace
 
+MarkedBases::MarkedBases(const std::vector<Box>& boxes) {
+  if (boxes.empty()) return;
+  lo_ = Vec3i::Constant(1 << 28);
+  hi_ = -lo_;
+  for (const Box& box : boxes) {
+    const auto [lo, hi] = blocks_near(box);
+    lo_ = lo_.cwiseMin(lo);
+    hi_ = hi_.cwiseMax(hi);
+  }
+  marks_.assign(static_cast<std::size_t>((hi_ - lo_ + Vec3i::Ones()).cast<long>().prod()), 0);
+  for (const Box& box : boxes) {
+    const auto [lo, hi] = blocks_near(box);
+    for (int k = lo[2]; k <= hi[2]; ++k)
+      for (int j = lo[1]; j <= hi[1]; ++j)
+        for (int i = lo[0]; i <= hi[0]; ++i) marks_[slot({i, j, k})] = 1;
+  }
+}
+
+std::array<Vec3i, 2> MarkedBases::blocks_near(const Box& box) {
+  constexpr double slack = 0.01;  // more than boxes are grown by where triangles are put into stencils
+  Vec3i lo, hi;
+  for (int k = 0; k < 3; ++k) {
+    lo[k] = static_cast<int>(std::floor(box.lo[k] - 3 - slack));
+    hi[k] = static_cast<int>(std::ceil(box.hi[k] + 1 + slack));
+  }
+  return {block(lo), block(hi)};
+}
+
+bool MarkedBases::meets(const Box& box) const {
+  auto [lo, hi] = blocks_near(box);
+  lo = lo.cwiseMax(lo_);
+  hi = hi.cwiseMin(hi_);
+  for (int k = lo[2]; k <= hi[2]; ++k)
+    for (int j = lo[1]; j <= hi[1]; ++j)
+      for (int i = lo[0]; i <= hi[0]; ++i)
+        if (marks_[slot({i, j, k})]) return true;
+  return false;
+}
+
 WallPatches make_wall_patches(const Walls& walls, const WallPoses& poses, const Domain& domain,
-                              const Vec3& origin, double h) {
+                              const Vec3& origin, double h, WhichWalls which) {
   WallPatches out;
-  Soup soup = collect(walls, poses, domain, origin, h);
+  Collector collector(walls, poses, domain, origin, h);
+  const auto stands = [&](int wall) { return poses.body_of(wall) < 0; };
+  if (which == WhichWalls::near_moving) {
+    collector.add_scene([&](int wall) { return !stands(wall); }, std::nullopt);
+    collector.add_bodies();
+    out.only.emplace(collector.boxes);
+  }
+  collector.add_scene([&](int wall) { return which == WhichWalls::all || stands(wall); }, out.only);
+  Soup& soup = collector.soup;
   if (soup.corners.empty()) return out;
   Box bounds;
   for (const auto& c : soup.corners)

@@ -4,9 +4,15 @@
 /// All of it is a function of the step's times: the poses at its start and end, and one step before. In the
 /// step the fluid meets the walls where they are at its start; a path is followed in the wall's own frame,
 /// from its pose at the start to that at the end, so that a wall never passes a point.
+///
+/// Bodies that come, go and move by themselves stand behind the scene's walls: body i of set_bodies is wall
+/// walls.size() + i, and so is each of its images through periodic faces, which follow them.
 
+#include <span>
 #include <vector>
 
+#include "base/domain.h"
+#include "fluid/fluid_body.h"
 #include "geometry/wall.h"
 
 namespace sluice {
@@ -20,10 +26,23 @@ class WallPoses {
   /// Places the walls for a step from t to t + dt. @return false where none is elsewhere than in the last
   /// call
   bool place(double t, double dt);
+  /// From now on these bodies are there, besides the walls, and no others.
+  /// @param sight  from how far walls are met [m]
+  void set_bodies(std::span<const FluidBody> bodies, const Domain& domain, double sight);
 
   int bodies() const { return static_cast<int>(bodies_.size()); }
+  int wall_count() const { return static_cast<int>(body_of_.size()); }  ///< bodies and their images too
   /// Walls of one motion are one body; -1: the wall stands.
   int body_of(int wall) const { return body_of_[static_cast<std::size_t>(wall)]; }
+  /// Index of a wall among the bodies of set_bodies; -1: it is one of the scene's walls.
+  int free_body(int wall) const {
+    const int scene = static_cast<int>(walls_.size());
+    return wall < scene ? -1 : image_of_[static_cast<std::size_t>(wall - scene)];
+  }
+  /// Shape of a wall that is a body. @pre free_body(wall) >= 0
+  const TriMesh& shape(int wall) const { return *at(body_of(wall)).shape; }
+  double size(int wall) const { return at(body_of(wall)).size; }           ///< of such a wall [m]
+  const Vec3& centre(int wall) const { return at(body_of(wall)).now.at; }  ///< of such a wall [m]
   /// A place of the resting wall at the start of the step [m].
   Vec3 to_space(int wall, const Vec3& rest) const {
     const int body = body_of(wall);
@@ -54,17 +73,20 @@ class WallPoses {
 
  private:
   struct Body {
-    WallMotion motion;
     Pose now, next;     ///< at the start and the end of the step
     Twist last, twist;  ///< of the last step and of this one
+    const TriMesh* shape = nullptr;
+    double size = 0;
   };
   const Body& at(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
 
   const Walls& walls_;
-  std::vector<Body> bodies_;
-  std::vector<int> body_of_;
+  std::vector<WallMotion> motions_;
+  std::vector<Body> bodies_;   ///< of each motion, then those of set_bodies and their images
+  std::vector<int> body_of_;   ///< per wall
+  std::vector<int> image_of_;  ///< per wall behind the scene's: index in set_bodies
   double fastest_ = 0;
-  bool placed_ = false;
+  bool moved_ = true;  ///< since the last call of place
 };
 
 }  // namespace sluice

@@ -116,10 +116,10 @@ PatchSection section_of(const WallPatches& walls, std::span<const std::int32_t> 
   return section;
 }
 
-/// Calls visit(base) for each base from lo to hi whose near box meets the triangle.
+/// Calls visit(base) for each base from lo to hi, among those marked, whose near box meets the triangle.
 template <class Visit>
 void near_bases(const WallTriangle& t, const WallPatch& patch, const Vec3i& lo, const Vec3i& hi,
-                const Visit& visit) {
+                const std::optional<MarkedBases>& only, const Visit& visit) {
   constexpr double half = 2 + box_slack;
   Vec3i from, to;
   for (int k = 0; k < 3; ++k) {
@@ -139,7 +139,8 @@ void near_bases(const WallTriangle& t, const WallPatch& patch, const Vec3i& lo, 
       const int first = std::max(from[w], static_cast<int>(std::floor(middle - spread)));
       const int last = std::min(to[w], static_cast<int>(std::ceil(middle + spread)));
       for (base[w] = first; base[w] <= last; ++base[w])
-        if (meets_cube(t, (base.cast<double>().array() + 1).matrix(), half)) visit(base);
+        if ((!only || only->at(base)) && meets_cube(t, (base.cast<double>().array() + 1).matrix(), half))
+          visit(base);
     }
   }
 }
@@ -156,7 +157,7 @@ WallStencils::WallStencils(const WallPatches& walls, const Vec3i& lo, const Vec3
   std::vector<std::int32_t> record_of_pair, triangle_of_pair;
   for (std::size_t t = 0; t < walls.triangles.size(); ++t) {
     const WallTriangle& triangle = walls.triangles[t];
-    near_bases(triangle, walls.patches[static_cast<std::size_t>(triangle.patch)], lo, hi,
+    near_bases(triangle, walls.patches[static_cast<std::size_t>(triangle.patch)], lo, hi, walls.only,
                [&](const Vec3i& base) {
                  record_of_pair.push_back(find_or_add(base));
                  triangle_of_pair.push_back(static_cast<std::int32_t>(t));

@@ -65,7 +65,7 @@ void ExplicitMpm<Real>::walls(double dt) {
   parallel_for(
       active.size(),
       [&](std::size_t b) { wall_block(grid_.slot_of(active[b]), node_begin_[b], impulses_[b]); }, 4);
-  if (field_) pour_loads(active.size());
+  if (has_walls()) pour_loads(active.size());
 }
 
 template <class Real>
@@ -92,9 +92,10 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
     Vec3 at = Vec3::Zero();
     double volume = 0;
     const Vec3 cut_off = vector_at(node, gradient);
-    if (field_) {
+    if (const std::int32_t stencil = grid_.stencil(slot)[n]; stencil >= 0) {
       const Vec3i where = place + Vec3i(n & 3, (n >> 2) & 3, n >> 4);
-      planes = field_->planes_of_node(where);
+      const WallRecord record = record_of(stencil);
+      planes = record.field->planes_at(record.stencil);
       if (!planes.empty()) {
         at = layout_.node_position(where);
         volume =

@@ -60,6 +60,11 @@ class NodeFluid : public FluidSystem {
       impulse_ += impulse[i];
     }
   }
+  void set_bodies(std::span<const FluidBody>) override {}
+  const std::vector<BodyLoad>& body_loads() const override {
+    static const std::vector<BodyLoad> none;
+    return none;
+  }
   void set_void_fraction(std::span<const double> v) override { void_fraction_.assign(v.begin(), v.end()); }
   const std::vector<WallLoad>& wall_loads() const override { return loads_; }
   Vec3 momentum() const override {

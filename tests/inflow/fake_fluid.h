@@ -73,6 +73,11 @@ class FakeFluid : public FluidSystem {
   void read_nodes(FluidNodes& nodes) const override { nodes = {}; }
   void read_accelerations(std::vector<Vec3>& acceleration) const override { acceleration.clear(); }
   void add_impulse(std::span<const Vec3>) override {}
+  void set_bodies(std::span<const FluidBody>) override {}
+  const std::vector<BodyLoad>& body_loads() const override {
+    static const std::vector<BodyLoad> none;
+    return none;
+  }
   void set_void_fraction(std::span<const double>) override {}
   const std::vector<WallLoad>& wall_loads() const override { return loads_; }
   Vec3 momentum() const override {
