@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 #include "coupling/coupling_grid.h"
 #include "coupling/cross_section.h"
+#include "coupling/resolved_rocks.h"
 #include "coupling/wetting.h"
 
 namespace sluice {
@@ -26,6 +27,15 @@ struct RockOnGrid {
   double displaced = 0;  ///< wetted volume [m3]
 };
 
+/// Size of the largest rock that has to do with the coupling grid [m].
+double largest_unresolved(const CouplingConfig& config, const DemSystem& rocks, const FluidSystem& fluid) {
+  const double largest = rocks.scene().largest_size;
+  return config.resolve_from ? std::min(largest, *config.resolve_from * fluid.spacing()) : largest;
+}
+
+/// How far outside a resolved rock its surface is asked whether it is wet [cells].
+constexpr double wet_beside = 0.75;
+
 }  // namespace
 
 struct Coupling::Implementation {
@@ -35,10 +45,14 @@ struct Coupling::Implementation {
         rocks(r),
         fluid(f),
         grid(domain, f.spacing(), c.kernel_diameters * r.scene().smallest_size,
-             c.kernel_diameters * r.scene().largest_size),
+             c.kernel_diameters * largest_unresolved(c, r, f)),
         table(domain, f.spacing()),
         domain(domain) {
     points = wetting_points(r.shapes(), static_cast<int>(c.wetting_points));
+    if (c.resolve_from) {
+      resolved = std::make_unique<ResolvedRocks>(*c.resolve_from * f.spacing(), r, f);
+      skins = skin_points(r.shapes(), static_cast<int>(c.wetting_points));
+    }
     for (const RockShape& shape : r.shapes()) {
       if (c.drag == DragModel::hoelzer_sommerfeld) cross_sections.emplace_back(shape);
       diameter_per_size.push_back(std::cbrt(6 / std::numbers::pi * shape.volume));
@@ -56,6 +70,7 @@ struct Coupling::Implementation {
   void give_to_fluid();
   void filter_acceleration(double dt);
   double solids_fraction_around(std::size_t rock) const;
+  bool resolves(std::size_t rock) const { return resolved && resolved->resolves(rock); }
 
   CouplingConfig config;
   Vec3 gravity;
@@ -67,6 +82,8 @@ struct Coupling::Implementation {
   std::vector<WettingPoints> points;         // of each shape
   std::vector<double> diameter_per_size;     // of the sphere of equal volume, of each shape
   std::vector<CrossSection> cross_sections;  // of each shape, where the drag law asks
+  std::unique_ptr<ResolvedRocks> resolved;   // where asked
+  std::vector<WettingPoints> skins;          // of each shape, where rocks are resolved
 
   FluidNodes nodes;
   std::vector<double> saturation;  // of the space that rocks, wet or dry, leave free at each node
@@ -96,6 +113,11 @@ void CouplingConfig::keys(Schema& s) {
            {.at_least = 0,
             .at_most = 100,
             .doc = "buoyancy is low-passed over this many times spacing / sound speed"});
+  s.number("resolve_from", resolve_from,
+           {.at_least = 3,
+            .doc = "rocks at least this many times the water's spacing large are met by the water with their "
+                   "own shape, as walls that move; without it, none are"});
+  if (s.given("resolve_from")) resolve_from_at = s.at("resolve_from");
   s.integer("wetting_points", wetting_points,
             {.at_least = 8, .at_most = 256, .doc = "points in each rock that find its wetted fraction"});
 }
@@ -105,6 +127,7 @@ void Coupling::Implementation::place_rocks() {
   on_grid.resize(all.count());
   std::vector<double> largest(static_cast<std::size_t>(grid.coarsest()) + 1, 0.0);
   for (std::size_t r = 0; r < all.count(); ++r) {
+    if (resolves(r)) continue;
     on_grid[r].level = grid.level_for(config.kernel_diameters * all.size[r]);
     double& size = largest[static_cast<std::size_t>(on_grid[r].level)];
     size = std::max(size, all.size[r]);
@@ -116,7 +139,8 @@ void Coupling::Implementation::place_rocks() {
   }
   parallel_for(all.count(),
                [&](std::size_t r) { on_grid[r].place = grid.weights(on_grid[r].level, all.x[r]); });
-  by_slab.sort(all.count(), grid.slab_count(), [&](std::size_t r) { return on_grid[r].place.slab; });
+  by_slab.sort(all.count(), grid.slab_count(),
+               [&](std::size_t r) { return resolves(r) ? -1 : on_grid[r].place.slab; });
   grid.clear_solids();
   grid.each_slab(by_slab, [&](std::size_t, std::span<const std::uint32_t> items) {
     for (const std::uint32_t r : items) grid.add_solids(on_grid[r].level, on_grid[r].place, rocks.volume(r));
@@ -183,6 +207,13 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
   const CouplingLevel& level = grid.level(rock.level);
   rock.wetted = rock.take_up = rock.displaced = wetted[r] = 0;
   buoyancy[r] = Vec3::Zero();
+  if (resolves(r)) {
+    const double grown = all.size[r] + 2 * wet_beside * fluid.spacing();
+    wetted[r] =
+        table.wetted_fraction(skins[static_cast<std::size_t>(all.shape[r])], all.x[r],
+                              all.q[r].toRotationMatrix() * grown, all.radius[r] * grown / all.size[r]);
+    return;
+  }
   NodeLanes sums{};
   for (std::size_t c = 0; c < 8; ++c) sums += rock.place.weight[c] * level.fluid_at(rock.place.node[c]);
   const double mass = sums[fluid_lane::mass];
@@ -314,6 +345,29 @@ Coupling::Coupling(const CouplingConfig& config, const Domain& domain, const Vec
     : implementation_(std::make_unique<Implementation>(config, domain, gravity, rocks, fluid)) {}
 Coupling::~Coupling() = default;
 
+bool Coupling::resolves() const {
+  return implementation_->resolved != nullptr;
+}
+
+std::vector<RemovedPoint> Coupling::make_room() {
+  return resolves() ? implementation_->resolved->make_room() : std::vector<RemovedPoint>{};
+}
+
+void Coupling::place_resolved(double dt, int k, int n) {
+  implementation_->resolved->place(dt, k, n);
+}
+
+void Coupling::take_resolved(double dt, int k, int n) {
+  Implementation& c = *implementation_;
+  const Vec3 before = c.resolved->impulse();
+  c.resolved->take_loads();
+  c.on_rocks += c.resolved->impulse() - before;
+  c.on_fluid -= c.resolved->impulse() - before;
+  if (k + 1 < n) return;
+  c.resolved->mean_loads(dt, c.force, c.torque);
+  c.rocks.set_fluid_force(c.force, c.torque);
+}
+
 void Coupling::solids_to_grid() {
   implementation_->place_rocks();
 }
@@ -353,6 +407,12 @@ const std::vector<Vec3>& Coupling::drag_force() const {
 const std::vector<Vec3>& Coupling::buoyancy_force() const {
   return implementation_->buoyancy;
 }
+const std::vector<Vec3>& Coupling::force() const {
+  return implementation_->force;
+}
+const std::vector<Vec3>& Coupling::torque() const {
+  return implementation_->torque;
+}
 Vec3 Coupling::impulse_on_rocks() const {
   return implementation_->on_rocks;
 }
@@ -368,7 +428,8 @@ double Coupling::smallest_void_fraction() const {
 
 std::size_t Coupling::memory_bytes() const {
   const Implementation& c = *implementation_;
-  return c.grid.memory_bytes() + c.table.memory_bytes() + c.on_grid.capacity() * sizeof(RockOnGrid);
+  return c.grid.memory_bytes() + c.table.memory_bytes() + c.on_grid.capacity() * sizeof(RockOnGrid) +
+         (c.resolved ? c.resolved->memory_bytes() : 0);
 }
 
 void Coupling::exchange(StateArchive& a) {
@@ -380,6 +441,7 @@ void Coupling::exchange(StateArchive& a) {
   a.value("on_fluid", c.on_fluid);
   a.value("kernel_ratio", c.kernel_ratio);
   a.value("least_void", c.least_void);
+  if (c.resolved) c.resolved->exchange(a);
 }
 
 }  // namespace sluice

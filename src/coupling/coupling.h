@@ -1,6 +1,7 @@
 #pragma once
-/// What rock and water do to each other, unresolved: void fraction and drag on a coupling grid that is
-/// coarser than the fluid's nodes. Called between points_to_grid and walls of a fluid step.
+/// What rock and water do to each other. Rocks of many cells are resolved, if asked (resolved_rocks.h). All
+/// others are not: void fraction and drag on a coupling grid that is coarser than the fluid's nodes, called
+/// between points_to_grid and walls of a fluid step.
 ///
 ///   solids_to_grid  rocks -> volume on the coupling grid (kernel renormalised per rock)
 ///   drag            fluid nodes -> coupling grid; wetted fraction, drag, buoyancy; the same impulse to
@@ -22,6 +23,7 @@
 /// no added mass in this range.
 
 #include <memory>
+#include <optional>
 
 #include "base/schema.h"
 #include "base/state_archive.h"
@@ -39,6 +41,9 @@ struct CouplingConfig {
   double kernel_diameters = 4;       ///< full width of the kernel over the rock's size
   double filter_time_factor = 7;     ///< buoyancy is filtered over this many h / c
   std::int64_t wetting_points = 32;  ///< points on each rock that find its wetted fraction
+  /// Size over the water's spacing from which on rocks are resolved; none are where it is not given.
+  std::optional<double> resolve_from;
+  Location resolve_from_at;
   void keys(Schema& s);
 };
 
@@ -49,6 +54,14 @@ class Coupling {
            FluidSystem& fluid);
   ~Coupling();
 
+  /// True where rocks may be resolved: only then the two calls around each fluid step are needed.
+  bool resolves() const;
+  /// Takes water out of the fluid that lies inside resolved rocks: where both were put in one place.
+  std::vector<RemovedPoint> make_room();
+  /// Before and after substep k of the fluid's n in a step of dt [s].
+  void place_resolved(double dt, int k, int n);
+  void take_resolved(double dt, int k, int n);
+
   void solids_to_grid();
   /// @param dt  over which the forces will act on both sides [s]
   void drag(double dt);
@@ -56,8 +69,10 @@ class Coupling {
   void fluid_to_grid(double dt);
 
   const std::vector<double>& wetted_fraction() const;  ///< per rock, of the last call, 0..1
-  const std::vector<Vec3>& drag_force() const;         ///< per rock [N]
-  const std::vector<Vec3>& buoyancy_force() const;     ///< per rock [N]
+  const std::vector<Vec3>& drag_force() const;         ///< per rock, zero where resolved [N]
+  const std::vector<Vec3>& buoyancy_force() const;     ///< per rock, zero where resolved [N]
+  const std::vector<Vec3>& force() const;              ///< all of it, per rock [N]
+  const std::vector<Vec3>& torque() const;             ///< per rock [N m]
   Vec3 impulse_on_rocks() const;                       ///< since start [N s]
   Vec3 impulse_on_fluid() const;                       ///< since start; the opposite in two-way [N s]
   double smallest_kernel_ratio() const;   ///< kernel width over rock size, least so far; 0 = no rock yet

@@ -123,4 +123,18 @@ std::vector<WettingPoints> wetting_points(const std::vector<RockShape>& shapes, 
   return all;
 }
 
+std::vector<WettingPoints> skin_points(const std::vector<RockShape>& shapes, int per_rock) {
+  std::vector<WettingPoints> all;
+  for (const RockShape& shape : shapes) {
+    WettingPoints points;
+    for (const Vec3& x : surface_points(shape.semi_axes, shape.blockiness, per_rock)) {
+      points.x.push_back(static_cast<float>(x.x()));
+      points.y.push_back(static_cast<float>(x.y()));
+      points.z.push_back(static_cast<float>(x.z()));
+    }
+    all.push_back(std::move(points));
+  }
+  return all;
+}
+
 }  // namespace sluice

@@ -19,6 +19,8 @@ struct WettingPoints {
   std::size_t count() const { return x.size(); }
 };
 std::vector<WettingPoints> wetting_points(const std::vector<RockShape>& shapes, int per_rock);
+/// The same on the surface, evenly spread by area.
+std::vector<WettingPoints> skin_points(const std::vector<RockShape>& shapes, int per_rock);
 
 /// How much each cell around a fluid node wets: a dense table over the domain at the fluid's spacing, so that
 /// a rock's points are looked up side by side.

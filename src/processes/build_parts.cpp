@@ -103,6 +103,9 @@ void Builder::look_at_phases() {
   if (config_.coupling && (!config_.rocks || !config_.water))
     refuse(config_.duration_at, "coupling", "has only one side", "it needs 'rocks' and 'water'",
            "leave it out");
+  if (config_.coupling && config_.coupling->resolve_from && config_.coupling->mode == CouplingMode::one_way)
+    refuse(config_.coupling->resolve_from_at, "resolve_from", "resolves rocks that the water does not feel",
+           "'mode' is 'one_way'", "leave one of them out");
 }
 
 RockSources Builder::look_at_rocks() {
@@ -258,6 +261,11 @@ BuiltProcess Builder::build() {
   if (parts.rocks && parts.water && config_.coupled)
     parts.coupling = std::make_unique<Coupling>(config_.coupling.value_or(CouplingConfig{}), parts.domain,
                                                 parts.gravity, *parts.rocks, *parts.water);
+  if (parts.coupling)
+    for (const RemovedPoint& displaced : parts.coupling->make_room()) {
+      parts.initial_water_kg -= displaced.mass;
+      parts.initial_fines_kg -= displaced.fines_mass;
+    }
   parts.exits.emplace(config_.exits, *parts.walls, config_.output.exit_slot, parts.domain);
   for (const GaugeConfig& gauge : config_.gauges) parts.probes.push_back(make_gauge(gauge));
   for (const MixingConfig& mixing : config_.mixing)

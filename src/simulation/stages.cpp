@@ -41,9 +41,14 @@ std::vector<Stage> build_stages(Parts& parts, const TimeStep& step) {
   if (parts.coupling)
     add("coupling.solids_to_grid", [&](const StepSpan&) { parts.coupling->solids_to_grid(); });
   // Where the rocks' step is the longer one the water subcycles; the coupling acts in its first substep.
-  for (int k = 0; k < step.fluid_substeps; ++k) {
+  const int n = step.fluid_substeps;
+  for (int k = 0; k < n; ++k) {
     const double dt = step.dt_fluid();
     const double offset = k * dt;
+    const bool resolves = parts.coupling && parts.coupling->resolves();
+    if (resolves)
+      add("coupling.place_resolved",
+          [&, k, n](const StepSpan& s) { parts.coupling->place_resolved(s.dt, k, n); });
     add("water.points_to_grid",
         [&, dt, offset](const StepSpan& s) { parts.water->points_to_grid(s.t + offset, dt); });
     if (parts.coupling && k == 0)
@@ -53,6 +58,9 @@ std::vector<Stage> build_stages(Parts& parts, const TimeStep& step) {
     add("water.grid_to_points", [&, dt](const StepSpan&) { parts.water->grid_to_points(dt); });
     if (parts.coupling && k == 0)
       add("coupling.fluid_to_grid", [&, dt](const StepSpan&) { parts.coupling->fluid_to_grid(dt); });
+    if (resolves)
+      add("coupling.take_resolved",
+          [&, k, n](const StepSpan& s) { parts.coupling->take_resolved(s.dt, k, n); });
   }
   if (parts.rocks)
     add("rocks.substeps",

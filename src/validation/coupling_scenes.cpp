@@ -23,11 +23,13 @@ ImmersedScene::ImmersedScene(const ImmersedSetup& setup, std::vector<Wall> walls
 
 void ImmersedScene::step() {
   const double dt = fluid.water->limits().step, from = fluid.t;
+  if (coupling->resolves()) coupling->place_resolved(dt, 0, 1);
   coupling->solids_to_grid();
   fluid.step([&] { coupling->drag(dt); });
   for (std::size_t i = 0; i < rocks->rocks().count(); ++i)
     exchanged += dt * (coupling->drag_force()[i] + coupling->buoyancy_force()[i]).norm();
   coupling->fluid_to_grid(dt);
+  if (coupling->resolves()) coupling->take_resolved(dt, 0, 1);
   const int n = static_cast<int>(std::ceil(dt / rocks->step_size()));
   for (int k = 0; k < n; ++k) rocks->step(from + k * dt / n, dt / n);
 }

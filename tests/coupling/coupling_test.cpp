@@ -179,7 +179,9 @@ TEST(PartlyWettedRock, FeelsNothingAboveAWetSheet) {
 
 TEST(PartlyWettedRock, IsHalfWetWhenHalfUnderWater) {
   const Box lower{Vec3::Zero(), Vec3(1, 1, 0.5)};
-  Scene scene(1.0, 0.02, Vec3::Zero(), 0.2, 2650, CouplingConfig{.wetting_points = 128}, &lower);
+  CouplingConfig finer;
+  finer.wetting_points = 128;
+  Scene scene(1.0, 0.02, Vec3::Zero(), 0.2, 2650, finer, &lower);
   scene.add(Vec3(0.5, 0.5, 0.49), Vec3::Zero(), 0.2);  // nodes end at 0.48: full to 0.49
   scene.exchange(1e-3);
   EXPECT_NEAR(scene.coupling->wetted_fraction()[0], 0.5, 0.05);

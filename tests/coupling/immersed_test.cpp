@@ -6,93 +6,10 @@
 #include <numbers>
 
 #include "base/random.h"
-#include "coupling/coupling.h"
-#include "mpm/mpm_system.h"
+#include "coupling/pool.h"
 
 namespace sluice {
 namespace {
-
-const Vec3 gravity(0, 0, -9.81);
-
-/// A column of water on a floor, periodic sideways, with rocks in it.
-struct Pool {
-  Pool(double width, double depth, double spacing, double largest_rock, const CouplingConfig& config) {
-    domain.box = {Vec3::Zero(), Vec3(width, width, depth + 8 * spacing)};
-    domain.low = {Face::periodic, Face::periodic, Face::wall};
-    domain.high = {Face::periodic, Face::periodic, Face::open};
-    Wall floor;
-    floor.name = "floor";
-    const double e = width;  // beyond the periodic faces
-    floor.mesh = make_rectangle("floor", {Vec3(-e, -e, 0), Vec3(width + e, -e, 0),
-                                          Vec3(width + e, width + e, 0), Vec3(-e, width + e, 0)});
-    walls = Walls({floor});
-    MpmConfig mpm;
-    mpm.spacing = spacing;
-    mpm.fastest_bulk_speed = 1;
-    mpm.deepest = depth;
-    water = make_mpm(mpm, domain, gravity, walls);
-    fill(depth);
-
-    DemScene scene;
-    scene.materials.all = {{"rock", 2650}};
-    scene.materials.pairs = {PairProperties{}};
-    scene.shapes = {make_sphere()};
-    scene.domain = domain;
-    scene.gravity = gravity;
-    scene.smallest_size = scene.largest_size = largest_rock;
-    scene.densest = 2650;
-    DemConfig dem;
-    dem.impact_speed = 1;
-    rocks = std::make_unique<DemSystem>(dem, scene, walls);
-    coupling = std::make_unique<Coupling>(config, domain, gravity, *rocks, *water);
-  }
-
-  void fill(double depth) {
-    const double step = water->spacing() / 2;
-    const double c = water->limits().sound_speed;
-    for (double z = step / 2; z < depth; z += step)
-      for (double y = step / 2; y < domain.box.hi.y(); y += step)
-        for (double x = step / 2; x < domain.box.hi.x(); x += step) {
-          NewPoint p;
-          p.x = {x, y, z};
-          p.J = std::exp(-9.81 * (depth - z) / (c * c));
-          p.mass = water->model().density * water->point_volume() / p.J;
-          water->add(p);
-        }
-  }
-
-  enum class Rocks { held, falling };
-  void step(Rocks how) {
-    const double dt = water->limits().step;
-    coupling->solids_to_grid();
-    water->points_to_grid(t, dt);
-    coupling->drag(dt);
-    water->walls(dt);
-    water->grid_to_points(dt);
-    coupling->fluid_to_grid(dt);
-    const int n = static_cast<int>(std::ceil(dt / rocks->step_size()));
-    for (int k = 0; how == Rocks::falling && k < n; ++k) rocks->step(t + k * dt / n, dt / n);
-    t += dt;
-  }
-
-  /// Mean height of the points, which is half the depth of a level pool [m].
-  double centroid() const {
-    const WaterPoints p = water->points();
-    double moment = 0, mass = 0;
-    for (std::size_t i = 0; i < p.count(); ++i) {
-      moment += p.mass[i] * p.x[i].z();
-      mass += p.mass[i];
-    }
-    return moment / mass;
-  }
-
-  Domain domain;
-  Walls walls;
-  std::unique_ptr<FluidSystem> water;
-  std::unique_ptr<DemSystem> rocks;
-  std::unique_ptr<Coupling> coupling;
-  double t = 0;
-};
 
 double terminal_velocity(DragModel model, double d) {
   const double weight = std::numbers::pi / 6 * d * d * d * 1650 * 9.81;
@@ -108,7 +25,7 @@ double terminal_velocity(DragModel model, double d) {
 
 TEST(TwoWayCoupling, LetsARockFallAtItsTerminalVelocity) {
   const double d = 0.01;
-  Pool pool(0.32, 0.8, 0.04, d, CouplingConfig{});
+  Pool pool(0.32, 0.8, 0.04, {.size = d}, CouplingConfig{});
   NewRock rock;
   rock.x = {0.16, 0.16, 0.7};
   rock.size = d;
@@ -131,7 +48,7 @@ TEST(TwoWayCoupling, LetsARockFallAtItsTerminalVelocity) {
 // Pressure noise reaches a rock through its buoyancy: rms 5 % of its weight at most, mean 2 %.
 TEST(Buoyancy, IsAsQuietAsTheStillWaterIs) {
   const double d = 0.03, h = 0.02;
-  Pool pool(8 * h, 0.3, h, d, CouplingConfig{});
+  Pool pool(8 * h, 0.3, h, {.size = d}, CouplingConfig{});
   for (const Vec3& x : {Vec3(0.05, 0.06, 0.08), Vec3(0.11, 0.1, 0.15), Vec3(0.07, 0.03, 0.2)})
     pool.rocks->add({.x = x, .size = d});
   double mean = 0, square = 0;
@@ -155,7 +72,7 @@ TEST(Buoyancy, IsAsQuietAsTheStillWaterIs) {
 // (depth + rise) with rocks spread evenly over the lower part is what is compared, through its own balance.
 TEST(Level, RisesByTheRocksVolumeOverTheArea) {
   const double width = 0.2, depth = 0.4, d = 0.05;
-  Pool pool(width, depth, 0.025, d, CouplingConfig{});
+  Pool pool(width, depth, 0.025, {.size = d}, CouplingConfig{});
   double volume = 0;
   for (int k = 0; k < 4; ++k)
     for (int j = 0; j < 2; ++j)

@@ -1,0 +1,169 @@
+#include "coupling/resolved_rocks.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "dem/rock_mesh.h"
+
+namespace sluice {
+
+namespace {
+
+/// Facets are about this long [cells], and a mesh has at least so many along a side.
+constexpr double facet = 1;
+constexpr int fewest_divisions = 4, most_divisions = 64;
+
+Pose part_way(const Pose& from, const Pose& to, const Twist& twist, double time, double share) {
+  if (share <= 0) return from;
+  if (share >= 1) return to;
+  const Vec3 turn = share * time * twist.w;
+  Pose pose;
+  pose.at = from.at + share * (to.at - from.at);
+  const double angle = turn.norm();
+  pose.q = angle > 0 ? Quat(Eigen::AngleAxisd(angle, Vec3(turn / angle))) * from.q : from.q;
+  return pose;
+}
+
+}  // namespace
+
+ResolvedRocks::ResolvedRocks(double from_size, DemSystem& rocks, FluidSystem& fluid)
+    : from_size_(from_size), rocks_(rocks), fluid_(fluid) {}
+
+const TriMesh& ResolvedRocks::mesh_of(std::size_t rock) {
+  const Rocks& all = rocks_.rocks();
+  const RockShape& shape = rocks_.shapes()[static_cast<std::size_t>(all.shape[rock])];
+  const double longest = 2 * shape.semi_axes.maxCoeff() * all.size[rock] / fluid_.spacing();
+  const int divisions =
+      std::clamp(static_cast<int>(std::ceil(0.8 * longest / facet)), fewest_divisions, most_divisions);
+  const auto [place, is_new] = meshes_.try_emplace({all.shape[rock], divisions});
+  if (is_new) place->second = make_rock_mesh(shape, divisions);
+  return place->second;
+}
+
+void ResolvedRocks::follow_rocks(double dt) {
+  const Rocks& all = rocks_.rocks();
+  rock_of_.clear();
+  for (std::size_t r = 0; r < all.count(); ++r)
+    if (resolves(r)) rock_of_.push_back(r);
+  std::sort(rock_of_.begin(), rock_of_.end(),
+            [&](std::size_t a, std::size_t b) { return all.id[a] < all.id[b]; });
+  std::vector<Held> now;
+  now.reserve(rock_of_.size());
+  auto known = held_.begin();
+  for (const std::size_t r : rock_of_) {
+    while (known != held_.end() && known->id < all.id[r]) ++known;
+    Held held{all.id[r], {all.q[r], Vec3::Zero(), all.x[r]}, {all.q[r], Vec3::Zero(), all.x[r]}, {}, {}};
+    held.last = held.twist = {all.v[r], all.w[r], all.x[r]};  // a new one moves from the next step on
+    if (known != held_.end() && known->id == held.id) {
+      held.before = known->now;
+      held.last = known->twist;
+      held.twist = twist_between(held.before, held.now, dt);
+    }
+    now.push_back(held);
+  }
+  held_ = std::move(now);
+}
+
+void ResolvedRocks::place(double dt, int k, int n) {
+  if (k == 0) {
+    follow_rocks(dt);
+    loads_.assign(held_.size(), {});
+  }
+  const Rocks& all = rocks_.rocks();
+  bodies_.clear();
+  for (std::size_t i = 0; i < held_.size(); ++i) {
+    const Held& held = held_[i];
+    const std::size_t r = rock_of_[i];
+    FluidBody body;
+    body.shape = &mesh_of(r);
+    body.size = all.size[r];
+    body.reach = 1.1 * all.radius[r];
+    body.now = part_way(held.before, held.now, held.twist, dt, static_cast<double>(k) / n);
+    body.next = part_way(held.before, held.now, held.twist, dt, static_cast<double>(k + 1) / n);
+    body.twist = held.twist;
+    // Each substep has its part of the step's change.
+    body.last = held.twist;
+    body.last.v += (held.last.velocity(held.twist.at) - held.twist.v) / n;
+    body.last.w += (held.last.w - held.twist.w) / n;
+    bodies_.push_back(body);
+  }
+  fluid_.set_bodies(bodies_);
+}
+
+void ResolvedRocks::take_loads() {
+  const std::vector<BodyLoad>& loads = fluid_.body_loads();
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    loads_[i].impulse += loads[i].impulse;
+    loads_[i].angular_impulse += loads[i].angular_impulse;
+    impulse_ += loads[i].impulse;
+  }
+}
+
+void ResolvedRocks::mean_loads(double dt, std::vector<Vec3>& force, std::vector<Vec3>& torque) const {
+  for (std::size_t i = 0; i < loads_.size(); ++i) {
+    force[rock_of_[i]] = loads_[i].impulse / dt;
+    torque[rock_of_[i]] = loads_[i].angular_impulse / dt;
+  }
+}
+
+std::vector<RemovedPoint> ResolvedRocks::make_room() {
+  const Rocks& all = rocks_.rocks();
+  struct Body {
+    Vec3 x, semi_axes;
+    Quat to_body;
+    double m, radius;
+  };
+  std::vector<Body> inside;
+  for (std::size_t r = 0; r < all.count(); ++r) {
+    if (!resolves(r)) continue;
+    const RockShape& shape = rocks_.shapes()[static_cast<std::size_t>(all.shape[r])];
+    const double grown = 1 + rock_mesh_excess(shape, mesh_of(r)) + 1e-9;
+    inside.push_back({all.x[r], grown * rocks_.semi_axes(r), all.q[r].conjugate(), shape.blockiness,
+                      grown * all.radius[r]});
+  }
+  if (inside.empty()) return {};
+  return fluid_.remove_if([&](const Vec3&, const Vec3& x) {
+    return std::any_of(inside.begin(), inside.end(), [&](const Body& body) {
+      const Vec3 d = x - body.x;
+      return d.squaredNorm() < body.radius * body.radius &&
+             superquadric_function(body.semi_axes, body.m, body.to_body * d) < 1;
+    });
+  });
+}
+
+std::size_t ResolvedRocks::memory_bytes() const {
+  std::size_t bytes = held_.capacity() * sizeof(Held) + bodies_.capacity() * sizeof(FluidBody);
+  for (const auto& [key, mesh] : meshes_)
+    bytes += mesh.vertices.capacity() * sizeof(Vec3) + mesh.triangles.capacity() * sizeof(std::array<int, 3>);
+  return bytes;
+}
+
+void ResolvedRocks::exchange(StateArchive& a) {
+  // What follow_rocks asks of the last step.
+  std::vector<std::uint64_t> id;
+  std::vector<Vec3> at, v, w, from;
+  std::vector<Quat> q;
+  for (const Held& held : held_) {
+    id.push_back(held.id);
+    at.push_back(held.now.at);
+    q.push_back(held.now.q);
+    v.push_back(held.twist.v);
+    w.push_back(held.twist.w);
+    from.push_back(held.twist.at);
+  }
+  a.values("held_id", id);
+  a.values("held_at", at);
+  a.values("held_q", q);
+  a.values("held_v", v);
+  a.values("held_w", w);
+  a.values("held_from", from);
+  a.value("resolved_impulse", impulse_);
+  held_.resize(id.size());
+  for (std::size_t i = 0; i < id.size(); ++i) {
+    held_[i].id = id[i];
+    held_[i].now = {q[i], Vec3::Zero(), at[i]};
+    held_[i].twist = {v[i], w[i], from[i]};
+  }
+}
+
+}  // namespace sluice
