@@ -3,15 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "dem/rock_mesh.h"
-
 namespace sluice {
 
 namespace {
-
-/// Facets are about this long [cells], and a mesh has at least so many along a side.
-constexpr double facet = 1;
-constexpr int fewest_divisions = 4, most_divisions = 64;
 
 Pose part_way(const Pose& from, const Pose& to, const Twist& twist, double time, double share) {
   if (share <= 0) return from;
@@ -28,17 +22,6 @@ Pose part_way(const Pose& from, const Pose& to, const Twist& twist, double time,
 
 ResolvedRocks::ResolvedRocks(double from_size, DemSystem& rocks, FluidSystem& fluid)
     : from_size_(from_size), rocks_(rocks), fluid_(fluid) {}
-
-const TriMesh& ResolvedRocks::mesh_of(std::size_t rock) {
-  const Rocks& all = rocks_.rocks();
-  const RockShape& shape = rocks_.shapes()[static_cast<std::size_t>(all.shape[rock])];
-  const double longest = 2 * shape.semi_axes.maxCoeff() * all.size[rock] / fluid_.spacing();
-  const int divisions =
-      std::clamp(static_cast<int>(std::ceil(0.8 * longest / facet)), fewest_divisions, most_divisions);
-  const auto [place, is_new] = meshes_.try_emplace({all.shape[rock], divisions});
-  if (is_new) place->second = make_rock_mesh(shape, divisions);
-  return place->second;
-}
 
 void ResolvedRocks::follow_rocks(double dt) {
   const Rocks& all = rocks_.rocks();
@@ -75,9 +58,9 @@ void ResolvedRocks::place(double dt, int k, int n) {
     const Held& held = held_[i];
     const std::size_t r = rock_of_[i];
     FluidBody body;
-    body.shape = &mesh_of(r);
-    body.size = all.size[r];
-    body.reach = 1.1 * all.radius[r];
+    body.semi_axes = rocks_.semi_axes(r);
+    body.blockiness = rocks_.shapes()[static_cast<std::size_t>(all.shape[r])].blockiness;
+    body.reach = all.radius[r];
     body.now = part_way(held.before, held.now, held.twist, dt, static_cast<double>(k) / n);
     body.next = part_way(held.before, held.now, held.twist, dt, static_cast<double>(k + 1) / n);
     body.twist = held.twist;
@@ -117,9 +100,7 @@ std::vector<RemovedPoint> ResolvedRocks::make_room() {
   for (std::size_t r = 0; r < all.count(); ++r) {
     if (!resolves(r)) continue;
     const RockShape& shape = rocks_.shapes()[static_cast<std::size_t>(all.shape[r])];
-    const double grown = 1 + rock_mesh_excess(shape, mesh_of(r)) + 1e-9;
-    inside.push_back({all.x[r], grown * rocks_.semi_axes(r), all.q[r].conjugate(), shape.blockiness,
-                      grown * all.radius[r]});
+    inside.push_back({all.x[r], rocks_.semi_axes(r), all.q[r].conjugate(), shape.blockiness, all.radius[r]});
   }
   if (inside.empty()) return {};
   return fluid_.remove_if([&](const Vec3&, const Vec3& x) {
@@ -132,10 +113,7 @@ std::vector<RemovedPoint> ResolvedRocks::make_room() {
 }
 
 std::size_t ResolvedRocks::memory_bytes() const {
-  std::size_t bytes = held_.capacity() * sizeof(Held) + bodies_.capacity() * sizeof(FluidBody);
-  for (const auto& [key, mesh] : meshes_)
-    bytes += mesh.vertices.capacity() * sizeof(Vec3) + mesh.triangles.capacity() * sizeof(std::array<int, 3>);
-  return bytes;
+  return held_.capacity() * sizeof(Held) + bodies_.capacity() * sizeof(FluidBody);
 }
 
 void ResolvedRocks::exchange(StateArchive& a) {

@@ -7,8 +7,7 @@
 /// step. Sound crosses less than a cell in that time, so that a light body carries its added mass without
 /// iterations.
 
-#include <map>
-#include <memory>
+#include <vector>
 
 #include "base/state_archive.h"
 #include "dem/dem_system.h"
@@ -44,7 +43,6 @@ class ResolvedRocks {
     Twist last, twist;
   };
   void follow_rocks(double dt);
-  const TriMesh& mesh_of(std::size_t rock);
 
   double from_size_;
   DemSystem& rocks_;
@@ -52,8 +50,7 @@ class ResolvedRocks {
   std::vector<Held> held_;
   std::vector<std::size_t> rock_of_;  ///< index of each held rock, until the rocks move
   std::vector<FluidBody> bodies_;
-  std::vector<BodyLoad> loads_;                    ///< of the step
-  std::map<std::pair<int, int>, TriMesh> meshes_;  ///< by shape and divisions
+  std::vector<BodyLoad> loads_;  ///< of the step
   Vec3 impulse_ = Vec3::Zero();
 };
 

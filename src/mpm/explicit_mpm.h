@@ -178,6 +178,7 @@ class ExplicitMpm final : public FluidSystem {
   void stop_at_walls(Point& p, const Place& before, std::int32_t cell_key, std::int32_t stencil,
                      WallImpulses& impulses) const;
   std::optional<WallHit> first_hit(std::int32_t stencil, const Vec3& from, const Vec3& to) const;
+  std::optional<WallHit> hit_of_body(int body, const Vec3& from, const Vec3& to) const;
   void settle_in_cell(Point& p, Place& before, std::int32_t& cell_key) const;
   int colour_of(const Vec3i& place) const;
   void check_reports();

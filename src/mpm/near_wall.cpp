@@ -199,6 +199,31 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   }
 }
 
+/// Where a path enters a body, in the body's own frame. A place within is on its surface at once.
+template <class Real>
+std::optional<WallHit> ExplicitMpm<Real>::hit_of_body(int body, const Vec3& from, const Vec3& to) const {
+  const RoundBody& shape = poses_.round()[static_cast<std::size_t>(poses_.round_of(body))];
+  const Vec3 end = poses_.to_rest_at_end(body, to);
+  if (end.squaredNorm() >= shape.reach * shape.reach || shape.gauge(end) >= 1) return std::nullopt;
+  const Vec3 start = shape.pose.to_rest(from);
+  WallHit hit;
+  Vec3 at = end;
+  if (shape.gauge(start) >= 1) {  // the last place outside, by bisection
+    double outside = 0, inside = 1;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = 0.5 * (outside + inside);
+      (shape.gauge(start + middle * (end - start)) >= 1 ? outside : inside) = middle;
+    }
+    hit.s = outside;
+    at = start + outside * (end - start);
+  }
+  at = shape.on_surface(at);
+  hit.point = poses_.from_rest_at_end(body, at);
+  hit.normal = poses_.turned_from_rest_at_end(body, shape.gauge_gradient(at).normalized());
+  hit.wall = shape.wall;
+  return hit;
+}
+
 /// Where a path meets a wall first. A wall that moves is met in its own frame; the place and the normal are
 /// those at the end of the step.
 template <class Real>
@@ -210,6 +235,11 @@ std::optional<WallHit> ExplicitMpm<Real>::first_hit(std::int32_t stencil, const 
   std::array<int, most_bodies> bodies;
   const int count = record.field->bodies_near(record.stencil, bodies.data(), most_bodies);
   for (const int body : std::span(bodies).first(static_cast<std::size_t>(count))) {
+    if (poses_.round_of(body) >= 0) {
+      const std::optional<WallHit> entry = hit_of_body(body, from, to);
+      if (entry && (!first || entry->s < first->s)) first = entry;
+      continue;
+    }
     const Vec3 end = body < 0 ? to : poses_.to_start(body, to);
     std::optional<WallHit> hit = record.field->first_hit(record.stencil, from, end, body);
     if (!hit || (first && first->s <= hit->s)) continue;

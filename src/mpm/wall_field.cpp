@@ -24,8 +24,15 @@ std::array<Vec3i, 2> recorded_bases(const WallPatches& walls, const Domain& doma
   for (const WallTriangle& t : walls.triangles)
     for (const Vec3& c : t.corner) near_walls.include(c);
   Vec3i lo = Vec3i::Zero(), hi = Vec3i::Constant(-1);
-  if (near_walls.empty() || box.empty()) return {lo, hi};
+  if ((near_walls.empty() && walls.bodies.empty()) || box.empty()) return {lo, hi};
   near_walls = near_walls.grown(4);
+  for (const RoundBody& body : walls.bodies) {
+    Box beside;
+    beside.include(body.pose.at);
+    beside = beside.grown(body.reach + 4);
+    near_walls.include(beside.lo);
+    near_walls.include(beside.hi);
+  }
   for (int k = 0; k < 3; ++k) {
     lo[k] = static_cast<int>(std::floor(std::max(box.lo[k] - halo - 1, near_walls.lo[k])));
     hi[k] = static_cast<int>(std::ceil(std::min(box.hi[k] + halo, near_walls.hi[k])));
@@ -168,12 +175,12 @@ void WallField::visibility(int stencil, const Vec3i& base, const Vec3& x, Visibi
   const Implementation& field = *implementation_;
   const StencilRecord& record = field.stencils.records[static_cast<std::size_t>(stencil)];
   out.hidden = 0;
-  if (record.cutting == 0) return;
+  if (record.cutting == 0 && record.body_count == 0) return;
   const Vec3 at = (x - field.origin) * field.per_h;
   const StencilPatch* patches = field.stencils.patches.data() + record.patches;
 
   // One patch that covers the stencil: the side decides
-  if (record.cutting == 1 && patches->cut.covered()) {
+  if (record.cutting == 1 && patches->cut.covered() && record.body_count == 0) {
     const bool above = is_above(height_over(field.sight.plane(*patches), at));
     out.hidden = above ? all_nodes & ~patches->above : patches->above;
     if (out.hidden) out.patch.fill(patches->patch);
@@ -182,6 +189,14 @@ void WallField::visibility(int stencil, const Vec3i& base, const Vec3& x, Visibi
 
   Targets targets;
   bool placed = false;
+  const auto place = [&] {
+    if (placed) return;
+    placed = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double lowest = base[static_cast<int>(k)] + node_offset[static_cast<int>(k)];
+      for (std::size_t j = 0; j < Targets::count; ++j) targets.x[k][j] = lowest + node_places[k][j];
+    }
+  };
   alignas(64) double s[Targets::count];
   std::array<double, Targets::count> first;
   for (std::int32_t i = 0; i < record.cutting; ++i) {
@@ -189,19 +204,29 @@ void WallField::visibility(int stencil, const Vec3i& base, const Vec3& x, Visibi
     const bool above = is_above(height_over(field.sight.plane(p), at));
     const std::uint32_t beyond = above ? all_nodes & ~p.above : p.above;
     if (!beyond) continue;
-    if (!placed) {
-      placed = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double lowest = base[static_cast<int>(k)] + node_offset[static_cast<int>(k)];
-        for (std::size_t j = 0; j < Targets::count; ++j) targets.x[k][j] = lowest + node_places[k][j];
-      }
-    }
+    place();
     const std::uint32_t cut = hidden_targets(field.sight, p, Reach::cut_box, at, targets, beyond, s);
     for (std::uint32_t left = cut; left; left &= left - 1) {
       const auto j = static_cast<std::size_t>(std::countr_zero(left));
       if ((out.hidden >> j & 1) && first[j] <= s[j]) continue;
       first[j] = s[j];
       out.patch[j] = p.patch;
+    }
+    out.hidden |= cut;
+  }
+  for (const std::int32_t body : field.stencils.bodies_of(record)) {
+    const BodyFace face = field.sight.face(body, at);
+    if (face.height > 2 * std::sqrt(3.0)) continue;
+    place();
+    const std::uint32_t cut = hidden_by(face, at, targets) & all_nodes;
+    for (std::uint32_t left = cut; left; left &= left - 1) {
+      const auto j = static_cast<std::size_t>(std::countr_zero(left));
+      const Vec3 node(targets.x[0][j], targets.x[1][j], targets.x[2][j]);
+      const double fall = face.height - (node - face.foot).dot(face.normal);
+      const double where = fall > 0 ? std::clamp(face.height / fall, 0.0, 1.0) : 1.0;
+      if ((out.hidden >> j & 1) && first[j] <= where) continue;
+      first[j] = where;
+      out.patch[j] = field.sight.patch_of_body(body);
     }
     out.hidden |= cut;
   }
@@ -229,11 +254,14 @@ std::span<const WallPlane> WallField::planes_at(int record) const {
 int WallField::bodies_near(int stencil, int* out, int max) const {
   const Implementation& field = *implementation_;
   int count = 0;
-  for (const StencilPatch& p :
-       field.stencils.patches_of(field.stencils.records[static_cast<std::size_t>(stencil)])) {
-    const int body = field.poses.body_of(field.sight.plane(p).wall);
+  const StencilRecord& record = field.stencils.records[static_cast<std::size_t>(stencil)];
+  const auto note = [&](int wall) {
+    const int body = field.poses.body_of(wall);
     if (count < max && std::find(out, out + count, body) == out + count) out[count++] = body;
-  }
+  };
+  for (const StencilPatch& p : field.stencils.patches_of(record)) note(field.sight.plane(p).wall);
+  for (const std::int32_t body : field.stencils.bodies_of(record))
+    note(field.patches.bodies[static_cast<std::size_t>(body)].wall);
   return count;
 }
 
@@ -304,7 +332,7 @@ const Vec3& WallField::patch_normal(int patch) const {
   return implementation_->patches.patches[static_cast<std::size_t>(patch)].normal;
 }
 int WallField::patch_wall(int patch) const {
-  return implementation_->patches.patches[static_cast<std::size_t>(patch)].wall;
+  return implementation_->sight.wall_of(patch);
 }
 int WallField::patch_count() const {
   return static_cast<int>(implementation_->patches.patches.size());

@@ -13,9 +13,10 @@ constexpr double eye_slack = 2e-3;  // more than the offset at which a node is s
 constexpr int sample_groups = 32;   // 1024 samples: a plane's fraction within 0.01
 
 struct Candidate {
-  double distance = 0;  ///< to the foot
-  const StencilPatch* patch = nullptr;
-  Vec3 normal = Vec3::Zero();  ///< towards the wall
+  double distance = 0;          ///< to the foot
+  int patch = -1;               ///< or a body as one; -1: none
+  Vec3 normal = Vec3::Zero();   ///< towards the wall
+  Vec3 surface = Vec3::Zero();  ///< a place of its plane
 };
 
 Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
@@ -91,7 +92,7 @@ const std::array<Targets, sample_groups>& spline_samples() {
 int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x, const Vec3& seen_at,
                   WallPlane* out, int max) {
   const auto patches = sight.stencils.patches_of(record);
-  if (patches.size() == 1 && patches[0].near.covered() && max > 0) {
+  if (patches.size() == 1 && patches[0].near.covered() && max > 0 && record.body_count == 0) {
     const WallPatch& plane = sight.plane(patches[0]);
     const double height = height_over(plane, seen_at);
     if (!(std::abs(height) < plane_reach)) return 0;
@@ -102,29 +103,38 @@ int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x
   }
   int written = 0;
   while (written < max) {
-    Candidate best{plane_reach, nullptr, Vec3::Zero()};
+    Candidate best{.distance = plane_reach};
+    const auto merged = [&](const Vec3& normal) {
+      return std::any_of(out, out + written, [&](const WallPlane& earlier) {
+        return earlier.normal.dot(normal) > smooth_cosine;
+      });
+    };
+    const auto in_sight = [&](const Vec3& foot, int patch) {
+      return patches.size() + static_cast<std::size_t>(record.body_count) < 2 ||
+             sight.sees(record, seen_at, foot + 1e-3 * (seen_at - foot), patch);
+    };
     for (const StencilPatch& p : patches) {
       const WallPatch& plane = sight.plane(p);
       const double height = height_over(plane, seen_at);
       if (!(std::abs(height) < best.distance)) continue;
       const Vec3 normal = is_above(height) ? Vec3(-plane.normal) : plane.normal;
-      const bool merged = std::any_of(out, out + written, [&](const WallPlane& earlier) {
-        return earlier.normal.dot(normal) > smooth_cosine;
-      });
-      if (merged) continue;
+      if (merged(normal)) continue;
       const std::optional<Vec3> foot = foot_on(sight, p, seen_at, height);
       if (!foot) continue;
       const double distance = (*foot - seen_at).norm();
-      if (distance >= best.distance) continue;
-      if (patches.size() > 1 && !sight.sees(record, seen_at, *foot + 1e-3 * (seen_at - *foot), p.patch))
-        continue;
-      best = {distance, &p, normal};
+      if (distance >= best.distance || !in_sight(*foot, p.patch)) continue;
+      best = {distance, p.patch, normal, plane.offset * plane.normal};
     }
-    if (!best.patch) break;
-    const WallPatch& plane = sight.plane(*best.patch);
-    const double side = best.normal.dot(plane.normal) < 0 ? 1 : -1;
-    out[written++] = {best.normal, std::max(0.0, side * height_over(plane, x)), plane.wall,
-                      best.patch->patch};
+    for (const std::int32_t body : sight.stencils.bodies_of(record)) {
+      const BodyFace face = sight.face(body, seen_at);
+      const double distance = std::max(0.0, face.height);
+      const int patch = sight.patch_of_body(body);
+      if (distance >= best.distance || merged(-face.normal) || !in_sight(face.foot, patch)) continue;
+      best = {distance, patch, -face.normal, face.foot};
+    }
+    if (best.patch < 0) break;
+    out[written++] = {best.normal, std::max(0.0, best.normal.dot(best.surface - x)),
+                      sight.wall_of(best.patch), best.patch};
   }
   return written;
 }
@@ -139,7 +149,12 @@ double open_fraction_of(const Sight& sight, const StencilRecord& record) {
     if (std::abs(height_over(plane, node)) <= plane_reach * plane.normal.cwiseAbs().sum() + eye_slack)
       patches.push_back(&p);
   }
-  if (patches.empty()) return 1;
+  std::vector<BodyFace> faces;
+  for (const std::int32_t body : sight.stencils.bodies_of(record)) {
+    faces.push_back(sight.face(body, eye));
+    if (faces.back().height > plane_reach * std::sqrt(3.0)) faces.pop_back();
+  }
+  if (patches.empty() && faces.empty()) return 1;
   int open = 0;
   for (const Targets& sample : spline_samples()) {
     Targets targets;
@@ -152,6 +167,7 @@ double open_fraction_of(const Sight& sight, const StencilRecord& record) {
       alignas(64) double s[Targets::count];
       hidden |= hidden_targets(sight, *p, Reach::near_box, eye, targets, beyond, s);
     }
+    for (const BodyFace& face : faces) hidden |= hidden_by(face, eye, targets);
     open += Targets::count - std::popcount(hidden);
   }
   return std::max(least_open_fraction, open / static_cast<double>(sample_groups * Targets::count));

@@ -70,18 +70,14 @@ class Collector {
       }
   }
 
-  void add_bodies() {
-    for (int wall = static_cast<int>(walls_.size()); wall < poses_.wall_count(); ++wall) {
-      const TriMesh& mesh = poses_.shape(wall);
-      const double size = poses_.size(wall);
-      for (const std::array<int, 3>& triangle : mesh.triangles) {
-        std::array<Vec3, 3> corner;
-        for (std::size_t k = 0; k < 3; ++k)
-          corner[k] =
-              grid(poses_.to_space(wall, size * mesh.vertices[static_cast<std::size_t>(triangle[k])]));
-        add(corner, wall, std::nullopt);
-      }
+  std::vector<RoundBody> bodies() const {
+    std::vector<RoundBody> all = poses_.round();
+    for (RoundBody& body : all) {
+      body.semi_axes /= h_;
+      body.reach /= h_;
+      body.pose.at = grid(body.pose.at);
     }
+    return all;
   }
 
   Soup soup;
@@ -330,8 +326,14 @@ WallPatches make_wall_patches(const Walls& walls, const WallPoses& poses, const 
   const auto stands = [&](int wall) { return poses.body_of(wall) < 0; };
   if (which == WhichWalls::near_moving) {
     collector.add_scene([&](int wall) { return !stands(wall); }, std::nullopt);
-    collector.add_bodies();
-    out.only.emplace(collector.boxes);
+    out.bodies = collector.bodies();
+    std::vector<Box> moving = collector.boxes;
+    for (const RoundBody& body : out.bodies) {
+      moving.emplace_back();
+      moving.back().include(body.pose.at);
+      moving.back() = moving.back().grown(body.reach);
+    }
+    out.only.emplace(moving);
   }
   collector.add_scene([&](int wall) { return which == WhichWalls::all || stands(wall); }, out.only);
   Soup& soup = collector.soup;

@@ -67,7 +67,8 @@ struct WallPatches {
   std::optional<MarkedBases> only;      ///< the stencils that know of all walls; absent: all do
   std::vector<WallTriangle> triangles;  ///< sorted by patch
   std::vector<WallPatch> patches;
-  double tolerance = 1e-6;  ///< two places closer than this are one
+  std::vector<RoundBody> bodies;  ///< in grid units
+  double tolerance = 1e-6;        ///< two places closer than this are one
 };
 
 /// Walls that block water where they are, near the domain; with the periodic images near its periodic faces.

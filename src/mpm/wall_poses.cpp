@@ -42,10 +42,12 @@ void WallPoses::set_bodies(std::span<const FluidBody> bodies, const Domain& doma
   bodies_.resize(motions_.size());
   body_of_.resize(walls_.size());
   image_of_.clear();
+  round_.clear();
   const auto add = [&](std::size_t i, const Vec3& shift) {
     const FluidBody& of = bodies[i];
-    Body body{of.now, of.next, of.last, of.twist, of.shape, of.size};
+    Body body{of.now, of.next, of.last, of.twist};
     for (Vec3* place : {&body.now.at, &body.next.at, &body.last.at, &body.twist.at}) *place += shift;
+    round_.push_back({of.semi_axes, of.blockiness, of.reach, body.now, static_cast<int>(body_of_.size())});
     body_of_.push_back(static_cast<int>(bodies_.size()));
     image_of_.push_back(static_cast<int>(i));
     bodies_.push_back(body);

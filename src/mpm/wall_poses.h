@@ -14,6 +14,7 @@
 #include "base/domain.h"
 #include "fluid/fluid_body.h"
 #include "geometry/wall.h"
+#include "mpm/round_body.h"
 
 namespace sluice {
 
@@ -39,10 +40,15 @@ class WallPoses {
     const int scene = static_cast<int>(walls_.size());
     return wall < scene ? -1 : image_of_[static_cast<std::size_t>(wall - scene)];
   }
-  /// Shape of a wall that is a body. @pre free_body(wall) >= 0
-  const TriMesh& shape(int wall) const { return *at(body_of(wall)).shape; }
-  double size(int wall) const { return at(body_of(wall)).size; }           ///< of such a wall [m]
-  const Vec3& centre(int wall) const { return at(body_of(wall)).now.at; }  ///< of such a wall [m]
+  /// Where a wall that is a body stands at the start of the step [m]. @pre free_body(wall) >= 0
+  const Vec3& centre(int wall) const { return at(body_of(wall)).now.at; }
+  const std::vector<RoundBody>& round() const { return round_; }  ///< the bodies and their images [m]
+  /// Index in round() of a body; negative for one of the scene's motions.
+  int round_of(int body) const { return body - static_cast<int>(motions_.size()); }
+  /// A place of a body's own frame that is at x at the end of the step, and back.
+  Vec3 to_rest_at_end(int body, const Vec3& x) const { return at(body).next.to_rest(x); }
+  Vec3 from_rest_at_end(int body, const Vec3& rest) const { return at(body).next.to_space(rest); }
+  Vec3 turned_from_rest_at_end(int body, const Vec3& n) const { return at(body).next.q * n; }
   /// A place of the resting wall at the start of the step [m].
   Vec3 to_space(int wall, const Vec3& rest) const {
     const int body = body_of(wall);
@@ -75,15 +81,14 @@ class WallPoses {
   struct Body {
     Pose now, next;     ///< at the start and the end of the step
     Twist last, twist;  ///< of the last step and of this one
-    const TriMesh* shape = nullptr;
-    double size = 0;
   };
   const Body& at(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
 
   const Walls& walls_;
   std::vector<WallMotion> motions_;
-  std::vector<Body> bodies_;   ///< of each motion, then those of set_bodies and their images
-  std::vector<int> body_of_;   ///< per wall
+  std::vector<Body> bodies_;  ///< of each motion, then those of set_bodies and their images
+  std::vector<int> body_of_;  ///< per wall
+  std::vector<RoundBody> round_;
   std::vector<int> image_of_;  ///< per wall behind the scene's: index in set_bodies
   double fastest_ = 0;
   bool moved_ = true;  ///< since the last call of place

@@ -51,6 +51,11 @@ std::optional<double> Sight::crossing(const StencilPatch& p, const Vec3& a, cons
 bool Sight::sees(const StencilRecord& record, const Vec3& a, const Vec3& b, int except) const {
   for (const StencilPatch& p : stencils.patches_of(record))
     if (p.patch != except && crossing(p, a, b)) return false;
+  for (const std::int32_t body : stencils.bodies_of(record)) {
+    if (patch_of_body(body) == except) continue;
+    const BodyFace near = face(body, a);
+    if (near.hides(a - near.foot, b - near.foot)) return false;
+  }
   return true;
 }
 
@@ -61,6 +66,24 @@ std::uint32_t targets_beyond(const WallPatch& plane, const Vec3& x, const Target
     height[j] = n0 * targets.x[0][j] + n1 * targets.x[1][j] + n2 * targets.x[2][j] - offset;
   const std::uint32_t above = pack(height, 0.0);
   return is_above(height_over(plane, x)) ? ~above : above;
+}
+
+std::uint32_t hidden_by(const BodyFace& face, const Vec3& x, const Targets& targets) {
+  // As BodyFace::hides, side by side.
+  const Vec3 p = x - face.foot;
+  const double start = face.over(p), half = 0.5 * face.curvature;
+  alignas(64) double below[lanes];
+  for (int j = 0; j < lanes; ++j) {
+    const double qx = targets.x[0][j] - face.foot[0], qy = targets.x[1][j] - face.foot[1],
+                 qz = targets.x[2][j] - face.foot[2];
+    const double dx = qx - p[0], dy = qy - p[1], dz = qz - p[2];
+    const double end = qx * face.normal[0] + qy * face.normal[1] + qz * face.normal[2] +
+                       half * (qx * qx + qy * qy + qz * qz);
+    const double bend = half * (dx * dx + dy * dy + dz * dz), slope = end - start - bend;
+    const bool dips = start >= 0 && slope < 0 && -slope < 2 * bend && slope * slope > 4 * bend * start;
+    below[j] = (end < 0 && (start >= 0 || end < start)) || dips ? 1.0 : 0.0;
+  }
+  return pack(below, 0.5);
 }
 
 std::uint32_t hidden_targets(const Sight& sight, const StencilPatch& p, Reach reach, const Vec3& x,

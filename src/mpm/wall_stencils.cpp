@@ -145,10 +145,30 @@ void near_bases(const WallTriangle& t, const WallPatch& patch, const Vec3i& lo, 
   }
 }
 
+/// Calls visit(base) for each base from lo to hi with a point that a body can be within sight of.
+template <class Visit>
+void bases_beside(const RoundBody& body, const Vec3i& lo, const Vec3i& hi, const Visit& visit) {
+  // Of the middle of the point's cell: by the reach of planes and the cell's half diagonal.
+  constexpr double outside = 2.6, inside = 2;
+  Vec3i from, to, base;
+  for (int k = 0; k < 3; ++k) {
+    from[k] = std::max(lo[k], static_cast<int>(std::floor(body.pose.at[k] - body.reach - outside)) - 1);
+    to[k] = std::min(hi[k], static_cast<int>(std::ceil(body.pose.at[k] + body.reach + outside)) - 1);
+  }
+  for (base[2] = from[2]; base[2] <= to[2]; ++base[2])
+    for (base[1] = from[1]; base[1] <= to[1]; ++base[1])
+      for (base[0] = from[0]; base[0] <= to[0]; ++base[0]) {
+        const Vec3 middle = (base.cast<double>().array() + 1).matrix();
+        if ((middle - body.pose.at).norm() > body.reach + outside) continue;
+        const double distance = body.about(middle);
+        if (distance < outside && distance > -inside) visit(base);
+      }
+}
+
 }  // namespace
 
 WallStencils::WallStencils(const WallPatches& walls, const Vec3i& lo, const Vec3i& hi) : lo_(lo) {
-  if (walls.triangles.empty() || (lo.array() > hi.array()).any()) return;
+  if ((walls.triangles.empty() && walls.bodies.empty()) || (lo.array() > hi.array()).any()) return;
   for (int k = 0; k < 3; ++k)
     blocks_[static_cast<std::size_t>(k)] = static_cast<std::uint32_t>((hi[k] - lo[k]) / 4 + 1);
   block_.assign(static_cast<std::size_t>(blocks_[0]) * blocks_[1] * blocks_[2], -1);
@@ -163,7 +183,27 @@ WallStencils::WallStencils(const WallPatches& walls, const Vec3i& lo, const Vec3
                  triangle_of_pair.push_back(static_cast<std::int32_t>(t));
                });
   }
-  order_records(record_of_pair);
+  std::vector<std::int32_t> record_of_body, body_of_pair;
+  for (std::size_t b = 0; b < walls.bodies.size(); ++b)
+    bases_beside(walls.bodies[b], lo, hi, [&](const Vec3i& base) {
+      record_of_body.push_back(find_or_add(base));
+      body_of_pair.push_back(static_cast<std::int32_t>(b));
+    });
+  order_records(record_of_pair, record_of_body);
+
+  // Bodies by record
+  for (const std::int32_t r : record_of_body) ++records[static_cast<std::size_t>(r)].body_count;
+  std::int32_t first_body = 0;
+  for (StencilRecord& r : records) {
+    r.bodies = first_body;
+    first_body += r.body_count;
+    r.body_count = 0;
+  }
+  bodies.resize(body_of_pair.size());
+  for (std::size_t i = 0; i < body_of_pair.size(); ++i) {
+    StencilRecord& r = records[static_cast<std::size_t>(record_of_body[i])];
+    bodies[static_cast<std::size_t>(r.bodies + r.body_count++)] = body_of_pair[i];
+  }
 
   // Triangles by record
   std::vector<std::int32_t> start(records.size() + 1, 0);
@@ -212,7 +252,8 @@ int WallStencils::find_or_add(const Vec3i& base) {
 }
 
 /// Puts records in the order of blocks, so that neighbours in space are neighbours in memory.
-void WallStencils::order_records(std::vector<std::int32_t>& record_of_pair) {
+void WallStencils::order_records(std::vector<std::int32_t>& record_of_pair,
+                                 std::vector<std::int32_t>& record_of_body) {
   std::vector<StencilRecord> ordered;
   ordered.reserve(records.size());
   std::vector<std::int32_t> now(records.size());
@@ -226,7 +267,8 @@ void WallStencils::order_records(std::vector<std::int32_t>& record_of_pair) {
     }
   }
   records = std::move(ordered);
-  for (std::int32_t& r : record_of_pair) r = now[static_cast<std::size_t>(r)];
+  for (std::vector<std::int32_t>* of : {&record_of_pair, &record_of_body})
+    for (std::int32_t& r : *of) r = now[static_cast<std::size_t>(r)];
 }
 
 void WallStencils::classify_all(const WallPatches& walls) {
@@ -282,7 +324,8 @@ void WallStencils::classify(const WallPatches& walls, StencilRecord& r, std::vec
 std::size_t WallStencils::memory_bytes() const {
   return records.capacity() * sizeof(StencilRecord) + patches.capacity() * sizeof(StencilPatch) +
          edges.capacity() * sizeof(Vec3) +
-         (triangles.capacity() + block_.capacity() + cell_.capacity()) * sizeof(std::int32_t);
+         (bodies.capacity() + triangles.capacity() + block_.capacity() + cell_.capacity()) *
+             sizeof(std::int32_t);
 }
 
 }  // namespace sluice

@@ -46,6 +46,8 @@ struct StencilRecord {
   std::int32_t patches = 0;  ///< first of its patches, in WallStencils::patches
   std::int32_t cutting = 0;  ///< how many can hide nodes; these come first
   std::int32_t near = 0;     ///< how many meet the near box
+  std::int32_t bodies = 0;   ///< first of its bodies, in WallStencils::bodies
+  std::int32_t body_count = 0;
 };
 
 class WallStencils {
@@ -70,6 +72,9 @@ class WallStencils {
   std::span<const std::int32_t> triangles_of(const StencilPatch& p) const {
     return {triangles.data() + p.triangles, static_cast<std::size_t>(p.near.triangles)};
   }
+  std::span<const std::int32_t> bodies_of(const StencilRecord& r) const {
+    return {bodies.data() + r.bodies, static_cast<std::size_t>(r.body_count)};
+  }
   std::span<const Vec3> edges_of(const PatchSection& section) const {
     return {edges.data() + section.edges, static_cast<std::size_t>(std::max(0, section.edge_count))};
   }
@@ -79,10 +84,11 @@ class WallStencils {
   std::vector<StencilPatch> patches;
   std::vector<std::int32_t> triangles;  ///< indices of WallPatches::triangles
   std::vector<Vec3> edges;              ///< half planes, as WallTriangle::edge
+  std::vector<std::int32_t> bodies;     ///< indices of WallPatches::bodies
 
  private:
   int find_or_add(const Vec3i& base);
-  void order_records(std::vector<std::int32_t>& record_of_pair);
+  void order_records(std::vector<std::int32_t>& record_of_pair, std::vector<std::int32_t>& record_of_body);
   void classify_all(const WallPatches& walls);
   void classify(const WallPatches& walls, StencilRecord& record, std::vector<Vec3>& found_edges);
 
