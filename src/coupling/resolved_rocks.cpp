@@ -25,6 +25,7 @@ ResolvedRocks::ResolvedRocks(double from_size, DemSystem& rocks, FluidSystem& fl
 
 void ResolvedRocks::follow_rocks(double dt) {
   const Rocks& all = rocks_.rocks();
+  const Domain& domain = rocks_.scene().domain;
   rock_of_.clear();
   for (std::size_t r = 0; r < all.count(); ++r)
     if (resolves(r)) rock_of_.push_back(r);
@@ -38,8 +39,12 @@ void ResolvedRocks::follow_rocks(double dt) {
     Held held{all.id[r], {all.q[r], Vec3::Zero(), all.x[r]}, {all.q[r], Vec3::Zero(), all.x[r]}, {}, {}};
     held.last = held.twist = {all.v[r], all.w[r], all.x[r]};  // a new one moves from the next step on
     if (known != held_.end() && known->id == held.id) {
-      held.before = known->now;
+      // Through a periodic face it came from the image on this side.
+      const Vec3 before = held.now.at + domain.nearest_image(known->now.at - held.now.at);
       held.last = known->twist;
+      held.last.at += before - known->now.at;
+      held.before = known->now;
+      held.before.at = before;
       held.twist = twist_between(held.before, held.now, dt);
     }
     now.push_back(held);
@@ -103,9 +108,10 @@ std::vector<RemovedPoint> ResolvedRocks::make_room() {
     inside.push_back({all.x[r], rocks_.semi_axes(r), all.q[r].conjugate(), shape.blockiness, all.radius[r]});
   }
   if (inside.empty()) return {};
+  const Domain& domain = rocks_.scene().domain;
   return fluid_.remove_if([&](const Vec3&, const Vec3& x) {
     return std::any_of(inside.begin(), inside.end(), [&](const Body& body) {
-      const Vec3 d = x - body.x;
+      const Vec3 d = domain.nearest_image(x - body.x);
       return d.squaredNorm() < body.radius * body.radius &&
              superquadric_function(body.semi_axes, body.m, body.to_body * d) < 1;
     });

@@ -11,7 +11,7 @@ ImmersedScene::ImmersedScene(const ImmersedSetup& setup, std::vector<Wall> walls
   scene.materials.pairs = {setup.pair};
   scene.shapes = {make_sphere()};
   scene.domain = setup.water.domain;
-  scene.gravity = setup.water.gravity;
+  scene.gravity = setup.rock_gravity.value_or(setup.water.gravity);
   scene.smallest_size = scene.largest_size = setup.rock_size;
   scene.densest = setup.rock_density;
   DemConfig config;

@@ -12,6 +12,7 @@ struct ImmersedSetup {
   double rock_density = 2700;  ///< [kg/m3]
   double rock_size = 0.01;     ///< [m]
   PairProperties pair{0.5, 0.5, 0};
+  std::optional<Vec3> rock_gravity;  ///< instead of the water's [m/s2]
 };
 
 /// A WaterScene with rocks that feel it, and that it feels.

@@ -7,6 +7,7 @@
 #include "validation/coupling_dam.h"
 #include "validation/coupling_hindered.h"
 #include "validation/coupling_settling.h"
+#include "validation/coupling_sphere.h"
 #include "validation/coupling_stream.h"
 #include "validation/coupling_third_law.h"
 #include "validation/emitter_flux.h"
@@ -71,6 +72,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"coupling_settling", "point", made<CouplingSettling>},
       {"coupling_hindered", "point", made<CouplingHindered>},
       {"coupling_bed", "point", made<CouplingBed>},
+      {"coupling_sphere", "point", made<CouplingSphere>},
       {"coupling_stream", "point", made<CouplingStream>},
       {"coupling_dam", "point", made<CouplingDam>},
       {"coupling_third_law", "point", made<CouplingThirdLaw>},

@@ -3,46 +3,171 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <numbers>
 
+#include "base/memory_archive.h"
+#include "base/parallel.h"
 #include "coupling/pool.h"
 
 namespace sluice {
 namespace {
 
-TEST(Experiment, Archimedes) {
-  const double n = std::atof(std::getenv("N")), h = 0.02, d = n * h;
+constexpr double h = 0.02;
+
+CouplingConfig resolving() {
   CouplingConfig config;
   config.resolve_from = 3;
-  const double width = (std::ceil(n) + 8) * h;
-  Pool pool(width, width, h, {.size = d, .density = 1000 * std::atof(std::getenv("RHO"))}, config);
-  NewRock rock;
-  rock.x = Vec3(0.5 * width, 0.5 * width + 0.003, 0.5 * width + 0.0041);
-  rock.size = d;
-  pool.rocks->add(rock);
-  double displaced = 0;
-  for (const RemovedPoint& p : pool.coupling->make_room()) displaced += p.mass;
-  const double volume = std::numbers::pi / 6 * d * d * d;
-  std::printf("d/h %.1f displaced %.4f of the rock's volume\n", n, displaced / (1000 * volume));
-  const bool held = std::getenv("HELD") != nullptr;
-  double sum = 0, sum2 = 0;
+  return config;
+}
+
+double sphere_volume(double d) {
+  return std::numbers::pi / 6 * d * d * d;
+}
+
+/// A pool that is `cells` wide and deep, with one rock in it, whose water has left its place.
+struct Bath : Pool {
+  Bath(double cells, const PoolRocks& of, NewRock rock) : Pool(cells * h, cells * h, h, of, resolving()) {
+    rock.size = of.size;
+    rocks->add(rock);
+    for (const RemovedPoint& p : coupling->make_room()) displaced += p.mass / water->model().density;
+  }
+  double displaced = 0;  ///< [m3]
+};
+
+struct Mean {
+  double value = 0, rms = 0;
+};
+/// Force upwards on rock 0 over the weight of the water that it displaces, from a time on.
+Mean lift(Bath& bath, double volume, double from, double until) {
+  double sum = 0, squares = 0;
   int count = 0;
-  for (int i = 0; pool.t < 1.5; ++i) {
-    pool.step(held ? Pool::Rocks::held : Pool::Rocks::falling);
-    const double f = pool.coupling->force()[0].z() / (1000 * 9.81 * volume);
-    if (pool.t > 1) {
-      sum += f;
-      sum2 += f * f;
-      ++count;
-    }
-    if (i % 200 == 0)
-      std::printf("t %.3f f %.4f z %.4f v %.4f\n", pool.t, f, pool.rocks->rocks().x[0].z() - rock.x.z(),
-                  pool.rocks->rocks().v[0].z());
+  while (bath.t < until) {
+    bath.step(Pool::Rocks::held);
+    if (bath.t < from) continue;
+    const double f = bath.coupling->force()[0].z() / (1000 * 9.81 * volume);
+    sum += f;
+    squares += f * f;
+    ++count;
   }
   const double mean = sum / count;
-  std::printf("mean %.4f rms %.4f depth %.4f wet %.3f\n", mean, std::sqrt(sum2 / count - mean * mean),
-              2 * pool.centroid(), pool.coupling->wetted_fraction()[0]);
+  return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
+TEST(ResolvedRock, LosesTheWeightOfTheWaterItDisplaces) {
+  const double d = 4 * h;
+  Bath bath(12, {.size = d}, {.x = {0.12, 0.123, 0.1241}});
+  EXPECT_NEAR(bath.displaced, sphere_volume(d), 0.1 * sphere_volume(d));
+  const Mean f = lift(bath, sphere_volume(d), 0.3, 0.5);
+  EXPECT_NEAR(f.value, 1, 0.03);
+  EXPECT_LT(f.rms, 0.02);
+  EXPECT_GT(bath.coupling->wetted_fraction()[0], 0.99);
+}
+
+TEST(ResolvedRock, IsMetThroughPeriodicFaces) {
+  const double d = 4 * h;
+  Bath bath(12, {.size = d}, {.x = {0.239, 0.003, 0.1241}});
+  const Mean f = lift(bath, sphere_volume(d), 0.2, 0.3);
+  EXPECT_NEAR(f.value, 1, 0.05);
+  EXPECT_LT(bath.coupling->torque()[0].norm(), 0.02 * 1000 * 9.81 * sphere_volume(d) * d);
+}
+
+TEST(ResolvedRock, OfAnyShapeLosesTheWeightOfItsWater) {
+  const RockShape block = make_superquadric(1.5, 0.75, 6);
+  const double size = 3 * h, volume = block.volume * size * size * size;
+  const Quat turned(Eigen::AngleAxisd(0.5, Vec3(1, 2, 0.5).normalized()));
+  Bath bath(11, {.size = size, .shape = block}, {.x = {0.11, 0.113, 0.1141}, .q = turned});
+  const Mean f = lift(bath, volume, 0.15, 0.25);
+  EXPECT_NEAR(f.value, 1, 0.05);
+}
+
+/// Largest depth of any point within rock 0 [m].
+double deepest_inside(const Pool& pool) {
+  const Rocks& rocks = pool.rocks->rocks();
+  const WaterPoints points = pool.water->points();
+  double deepest = 0;
+  for (const Vec3& x : points.x) deepest = std::max(deepest, rocks.radius[0] - (x - rocks.x[0]).norm());
+  return deepest;
+}
+
+TEST(ResolvedRock, HalfAsDenseAsWaterFloatsToItsMiddle) {
+  const double d = 4 * h, width = 11 * h;
+  Bath bath(11, {.size = d, .density = 500}, {.x = {0.11, 0.113, 0.2}});
+  double height = 0, speed = 0;
+  int count = 0;
+  while (bath.t < 1.1) {
+    bath.step(Pool::Rocks::falling);
+    if (bath.t < 0.7) continue;
+    height += bath.rocks->rocks().x[0].z();
+    speed = std::max(speed, bath.rocks->rocks().v[0].norm());
+    ++count;
+  }
+  const double water = width * width * width - bath.displaced;
+  const double level = (water + 0.5 * sphere_volume(d)) / (width * width);
+  EXPECT_NEAR(height / count, level, 0.05 * d);
+  EXPECT_LT(speed, 0.1) << "it has come to rest";
+  EXPECT_LT(deepest_inside(bath), 0.1 * h) << "the water is one rock step behind";
+}
+
+TEST(ResolvedRock, GivesTheWaterWhatItTakes) {
+  const double d = 4 * h;
+  Bath bath(12, {.size = d}, {.x = {0.12, 0.123, 0.17}, .w = {5, 0, 20}});
+  double sum = 0;
+  const Vec3 at_start = bath.water->momentum() - bath.water->momentum_added();
+  while (bath.t < 0.15) {
+    bath.step(Pool::Rocks::falling);
+    sum += bath.coupling->force()[0].norm() * bath.water->limits().step;
+  }
+  EXPECT_EQ(bath.coupling->impulse_on_fluid(), -bath.coupling->impulse_on_rocks());
+  Vec3 given = bath.water->impulse_from_gravity() + bath.coupling->impulse_on_fluid() -
+               bath.water->momentum_removed() + at_start;
+  for (const WallLoad& load : bath.water->wall_loads()) given -= load.impulse;
+  const Vec3 change = bath.water->momentum() - bath.water->momentum_added();
+  EXPECT_LT((change - given).norm(), 1e-5 * bath.water->impulse_from_gravity().norm());
+  EXPECT_GT(sum, 0);
+  EXPECT_NEAR((bath.rocks->impulse_from_fluid() - bath.coupling->impulse_on_rocks()).norm(), 0, 1e-12);
+  EXPECT_LT(std::abs(bath.rocks->rocks().w[0].z()), 20) << "friction slows its spin";
+}
+
+std::uint64_t hash_of(const Pool& pool) {
+  return pool.water->state_hash() + pool.rocks->state_hash();
+}
+
+void exchange(Pool& pool, MemoryArchive& archive) {
+  archive.enter("rocks");
+  pool.rocks->exchange(archive);
+  archive.leave();
+  archive.enter("water");
+  pool.water->exchange(archive);
+  archive.leave();
+  archive.enter("coupling");
+  pool.coupling->exchange(archive);
+  archive.leave();
+}
+
+TEST(ResolvedRock, MovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
+  const double d = 4 * h;
+  const auto make = [&] { return Bath(12, {.size = d}, {.x = {0.12, 0.123, 0.15}, .w = {5, 0, 20}}); };
+  const auto run = [](Pool& pool, int steps) {
+    for (int i = 0; i < steps; ++i) pool.step(Pool::Rocks::falling);
+  };
+  const int usual = thread_count();
+  set_thread_count(1);
+  Bath one = make();
+  run(one, 60);
+  set_thread_count(3);
+  Bath three = make();
+  run(three, 40);
+  MemoryArchive saved;
+  exchange(three, saved);
+  run(three, 20);
+  EXPECT_EQ(hash_of(three), hash_of(one));
+  Bath again = make();
+  saved.rewind_to_load();
+  exchange(again, saved);
+  again.t = 40 * again.water->limits().step;
+  run(again, 20);
+  EXPECT_EQ(hash_of(again), hash_of(one));
+  set_thread_count(usual);
 }
 
 }  // namespace
