@@ -1,7 +1,7 @@
 #pragma once
 /// A rigid body that a fluid meets as a wall that moves: a rock much larger than the fluid's spacing.
 
-#include "geometry/wall_motion.h"
+#include "base/pose.h"
 
 namespace sluice {
 

@@ -13,27 +13,10 @@
 #include <span>
 #include <vector>
 
+#include "base/pose.h"
 #include "base/schema.h"
-#include "base/vec.h"
 
 namespace sluice {
-
-/// Where a body is that rests in its own frame: turned about `centre`, which has moved to `at`.
-struct Pose {
-  Quat q = Quat::Identity();   ///< rest to space
-  Vec3 centre = Vec3::Zero();  ///< rest frame [m]
-  Vec3 at = Vec3::Zero();      ///< [m]
-  Vec3 to_space(const Vec3& rest) const { return at + q * (rest - centre); }
-  Vec3 to_rest(const Vec3& x) const { return centre + q.conjugate() * (x - at); }
-};
-
-/// Velocity of a rigid body: that of the point `at`, and its spin.
-struct Twist {
-  Vec3 v = Vec3::Zero();   ///< [m/s]
-  Vec3 w = Vec3::Zero();   ///< [rad/s]
-  Vec3 at = Vec3::Zero();  ///< [m]
-  Vec3 velocity(const Vec3& x) const { return v + w.cross(x - at); }
-};
 
 enum class MotionKind { vibration, rotation, keyframes };
 enum class AfterLast { hold, repeat };

@@ -5,7 +5,7 @@
 /// place the body counts as the ball that touches it there with its mean curvature: exact for spheres, a
 /// plane on flat faces, a small ball at the edge of a block.
 
-#include "geometry/wall_motion.h"
+#include "base/pose.h"
 
 namespace sluice {
 

@@ -18,8 +18,7 @@ struct PoolRocks {
 
 /// A column of water on a floor, periodic sideways, with rocks in it.
 struct Pool {
-  Pool(double width, double depth, double spacing, const PoolRocks& of,
-       const CouplingConfig& config) {
+  Pool(double width, double depth, double spacing, const PoolRocks& of, const CouplingConfig& config) {
     domain.box = {Vec3::Zero(), Vec3(width, width, depth + 8 * spacing)};
     domain.low = {Face::periodic, Face::periodic, Face::wall};
     domain.high = {Face::periodic, Face::periodic, Face::open};
