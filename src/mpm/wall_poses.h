@@ -31,8 +31,6 @@ class WallPoses {
   /// @param sight  from how far walls are met [m]
   void set_bodies(std::span<const FluidBody> bodies, const Domain& domain, double sight);
 
-  int bodies() const { return static_cast<int>(bodies_.size()); }
-  int wall_count() const { return static_cast<int>(body_of_.size()); }  ///< bodies and their images too
   /// Walls of one motion are one body; -1: the wall stands.
   int body_of(int wall) const { return body_of_[static_cast<std::size_t>(wall)]; }
   /// Index of a wall among the bodies of set_bodies; -1: it is one of the scene's walls.

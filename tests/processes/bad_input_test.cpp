@@ -405,5 +405,12 @@ TEST_F(BadInput, MayBeAnUnknownContactLawOrAdhesionThatPushes) {
   expect_refused(with(old, contacts_of("", "", ", adhesion: -1 N/m", "")), 12, "adhesion", "out of range");
 }
 
+TEST_F(BadInput, MayResolveRocksThatTheWaterDoesNotFeelOrThatAreNoCellsLarge) {
+  const std::string old = "  fastest_bulk_speed: 2 m/s", line = old + "\ncoupling: {";
+  expect_refused(with(old, line + "mode: one_way, resolve_from: 4}"), 25, "resolve_from", "'one_way'");
+  expect_refused(with(old, line + "resolve_from: 1}"), 25, "resolve_from", "out of range");
+  EXPECT_TRUE(problems_of(with(old, line + "resolve_from: 4}")).empty());
+}
+
 }  // namespace
 }  // namespace sluice
