@@ -31,7 +31,6 @@ class ResolvedRocks {
 
   /// Takes water that lies inside out of the fluid. To be called where rocks were put into water.
   std::vector<RemovedPoint> make_room();
-  std::size_t count() const { return held_.size(); }  ///< in the fluid now
   std::size_t memory_bytes() const;
   void exchange(StateArchive& archive);
 
