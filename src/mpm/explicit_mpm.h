@@ -119,6 +119,7 @@ class ExplicitMpm final : public FluidSystem {
     static constexpr int batch = 16;
     Node tile[BlockLayout::tile_nodes];
     Contribution point[batch];
+    typename Node::Half strain[BlockLayout::tile_nodes];  ///< as NodeBlocks::strain
   };
   /// What a point gathers from its 27 nodes: weighted sums, and sums of w d with d in cells.
   struct Gathered {
@@ -148,15 +149,24 @@ class ExplicitMpm final : public FluidSystem {
   void scatter(std::span<const Contribution> points, Node* corner) const;
   void contribute(const Point& p, Contribution& a) const;
   Real sheared_viscosity(const Point& p) const;
-  void hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
+  bool hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
                   WallImpulses& impulses) const;
   void colour_blocks();
+  void scatter_strain(const Point& p, const Contribution& a, bool beyond_edge,
+                      typename Node::Half* corner) const;
   void add_tile(const PointBlock& block, const Node* tile);
+  void add_strain(const PointBlock& block, const typename Node::Half* strain);
   std::uint32_t finish_nodes(std::int32_t slot);
   void wall_block(std::int32_t slot, std::uint32_t first, WallImpulses& impulses);
-  void close_pressure(Node& node, double volume, std::span<const WallPlane> planes, const Vec3& at,
+  /// Water about a node as the walls beside it need it.
+  struct WaterBeside {
+    double volume = 0;           ///< that the node stands for [m3]
+    double chi = 0;              ///< share of it that has the wall before it, not a free edge's open side
+    Mat3 strain = Mat3::Zero();  ///< mean of (C + C^T) / 2 [1/s]
+  };
+  void close_pressure(Node& node, const WaterBeside& water, std::span<const WallPlane> planes, const Vec3& at,
                       WallImpulses& impulses) const;
-  void hold_at_walls(Node& node, double volume, Vec3 cut_off, std::span<const WallPlane> planes,
+  void hold_at_walls(Node& node, const WaterBeside& water, Vec3 cut_off, std::span<const WallPlane> planes,
                      const Vec3& at, WallImpulses& impulses) const;
   /// Calls row(slot, node, tile_node, length) for each row of nodes, along the first axis, of a block's tile:
   /// where it lies in a grid block and where in the tile.

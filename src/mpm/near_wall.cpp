@@ -15,7 +15,8 @@ constexpr double stand_off = 1e-4;  ///< of a stopped point from its wall [cells
 constexpr int most_path_hits = 3;   ///< a corner of three walls
 constexpr int most_bodies = 16;     ///< within reach of a point
 /// Weight of the visible nodes from which on their mean speaks for the hidden ones; below, gravity fills in.
-constexpr double enough_seen = 0.25;
+/// Water in bulk has pressure that holds it against gravity, also in a corner that hides most nodes.
+constexpr double enough_seen_of_spray = 0.25, enough_seen_of_bulk = 0.02;
 
 /// Gives walls the impulse w (constant + slope d) of each hidden node. Where two planes lie between, as in a
 /// corner, each gets its own normal part; what is left goes to the wall that hides the nodes.
@@ -47,9 +48,9 @@ Vec3 offset_of(const Triple& x) {
 }  // namespace
 
 /// Takes from a point's contribution what walls hide: they get the stress and the weight that the hidden
-/// nodes would have carried.
+/// nodes would have carried. Returns true where no wall is before the point because it ends before it.
 template <class Real>
-void ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil,
+bool ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil,
                                    Contribution& a, WallImpulses& impulses) const {
   const WallRecord record = record_of(stencil);
   const WallField& field = *record.field;
@@ -58,7 +59,8 @@ void ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::i
   const int needed = around.seen.hidden != 0 ? most_planes : 1;
   around.plane_count = field.planes_of_point(record.stencil, around.x, around.planes, needed);
   if (around.plane_count > 0) a.middle[node_lane::near_wall] = p.mass();
-  if (around.seen.hidden == 0) return;
+  const bool beyond_edge = around.plane_count == 0 && field.beyond_edge(record.stencil, around.x);
+  if (around.seen.hidden == 0) return beyond_edge;
 
   HiddenGroups groups;
   group_hidden(around, offset_of(p.x), 0, groups);
@@ -71,6 +73,7 @@ void ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::i
     const int n = std::countr_zero(left);
     a.weight[n / 3][n % 3] = 0;
   }
+  return beyond_edge;
 }
 
 template <class Real>
@@ -138,6 +141,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   g.pressure = sum.quad(3) * per_weight;
   g.centre = sum.quad(2) * per_weight;
   const double mean_bulk = static_cast<double>(g.bulk * per_weight);
+  const double enough_seen = enough_seen_of_spray + mean_bulk * (enough_seen_of_bulk - enough_seen_of_spray);
   const double trust = std::min(1.0, static_cast<double>(weight) / enough_seen);
   Vec3 mean_change = (1 - trust) * step_.dt * gravity_;
   for (int c = 0; c < 3; ++c) {
@@ -148,7 +152,8 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     g.bulk_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill] - g.fill * weight_moment;
     g.moment[c] = sum_of_quads<Real>(moment[c]);
-    mean_change[c] += static_cast<double>(sum[change + c] / std::max(weight, Real(enough_seen)));
+    mean_change[c] +=
+        static_cast<double>(sum[change + c]) / std::max(static_cast<double>(weight), enough_seen);
   }
 
   // Hidden nodes: the point's own field, mirrored at the planes between.
@@ -276,13 +281,13 @@ void ExplicitMpm<Real>::stop_at_walls(Point& p, const Place& before, std::int32_
   for (int r = 0; r < 3; ++r) p.x[r] = before[static_cast<std::size_t>(r)];
 }
 
-template void ExplicitMpm<float>::hide_nodes(const Point&, std::int32_t, std::int32_t, Contribution&,
+template bool ExplicitMpm<float>::hide_nodes(const Point&, std::int32_t, std::int32_t, Contribution&,
                                              WallImpulses&) const;
 template void ExplicitMpm<float>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
                                                    Gathered&, WallImpulses&) const;
 template void ExplicitMpm<float>::stop_at_walls(Point&, const Place&, std::int32_t, std::int32_t,
                                                 WallImpulses&) const;
-template void ExplicitMpm<double>::hide_nodes(const Point&, std::int32_t, std::int32_t, Contribution&,
+template bool ExplicitMpm<double>::hide_nodes(const Point&, std::int32_t, std::int32_t, Contribution&,
                                               WallImpulses&) const;
 template void ExplicitMpm<double>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
                                                     Gathered&, WallImpulses&) const;

@@ -62,6 +62,7 @@ void NodeBlocks<Real>::replace_active(const std::function<void(std::int32_t slot
       data_.resize(n);
       if (!void_.empty()) void_.resize(n);
       stencil_.resize(n);
+      strain_slot_.push_back(BlockLayout::none);
     } else {
       slot = free_.back();
       free_.pop_back();
@@ -81,6 +82,16 @@ void NodeBlocks<Real>::hold_void_fractions() {
   void_.resize(data_.size(), Real(1));
 }
 
+template <class Real>
+void NodeBlocks<Real>::hold_strains() {
+  for (const std::int32_t block : active_) {
+    std::int32_t& n = strain_slot_[static_cast<std::size_t>(slot_of(block))];
+    if (n != wanted_strain) continue;
+    n = static_cast<std::int32_t>(strain_.size() / BlockLayout::nodes);
+    strain_.resize(strain_.size() + BlockLayout::nodes);
+  }
+}
+
 /// Room for so many slots, and a sixteenth more when that is needed at all, not twice as much.
 template <class Real>
 void NodeBlocks<Real>::make_room(std::size_t slots) {
@@ -95,7 +106,7 @@ template <class Real>
 std::size_t NodeBlocks<Real>::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(slot_) + bytes(block_) + bytes(free_) + bytes(active_) + bytes(wanted_) + bytes(mark_) +
-         bytes(data_) + bytes(void_) + bytes(stencil_);
+         bytes(data_) + bytes(void_) + bytes(stencil_) + bytes(strain_slot_) + bytes(strain_);
 }
 
 template class NodeBlocks<float>;

@@ -68,9 +68,23 @@ class NodeBlocks {
     return &stencil_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
   }
 
+  /// Sum m D of the points beside walls, D = (C + C^T) / 2, as xx yy zz yz xz xy, and after these the mass of
+  /// points beyond a wall's free edge, per node; null in blocks that hold none.
+  typename Lanes<Real>::Half* strain(std::int32_t slot) {
+    const std::int32_t n = strain_slot_[static_cast<std::size_t>(slot)];
+    return n < 0 ? nullptr : &strain_[static_cast<std::size_t>(n) * BlockLayout::nodes];
+  }
+  /// The slot shall hold it from the next hold_strains() on, for whatever block.
+  void want_strain(std::int32_t slot) {
+    std::int32_t& n = strain_slot_[static_cast<std::size_t>(slot)];
+    if (n < 0) n = wanted_strain;
+  }
+  void hold_strains();
+
   std::size_t memory_bytes() const;
 
  private:
+  static constexpr std::int32_t wanted_strain = -2;
   static constexpr std::array<Real, BlockLayout::nodes> no_rocks = [] {
     std::array<Real, BlockLayout::nodes> ones{};
     ones.fill(1);
@@ -89,6 +103,8 @@ class NodeBlocks {
   std::vector<Lanes<Real>> data_;
   std::vector<Real> void_;  ///< empty while nobody set any
   std::vector<std::int32_t> stencil_;
+  std::vector<std::int32_t> strain_slot_;  ///< per slot; none without
+  std::vector<typename Lanes<Real>::Half> strain_;
 };
 
 }  // namespace sluice

@@ -34,6 +34,7 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
     if (!moving) prepare_block(slot);
   });
   if (moving) place_walls(t, dt);
+  if (has_walls()) grid_.hold_strains();
   const std::size_t blocks = store_.blocks().size();
   colour_blocks();
   if (impulses_.size() < std::max(blocks, grid_.active().size()))
@@ -45,6 +46,8 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
       [&](std::size_t b) {
         Node* nodes = grid_.nodes(grid_.slot_of(active[b]));
         for (int n = 0; n < BlockLayout::nodes; ++n) nodes[n].clear();
+        if (auto* strain = grid_.strain(grid_.slot_of(active[b])))
+          std::fill_n(strain, BlockLayout::nodes, typename Node::Half{});
       },
       16);
   for (const std::vector<std::uint32_t>& colour : colours_)
@@ -115,6 +118,7 @@ template <class Real>
 void ExplicitMpm<Real>::prepare_block(std::int32_t slot) {
   const Vec3i place = layout_.block_place(grid_.block_of(slot));
   const Vec3i width = layout_.width(place);
+  bool at_wall = false;
   for (int k = 0; k < width.z(); ++k)
     for (int j = 0; j < width.y(); ++j)
       for (int i = 0; i < width.x(); ++i) {
@@ -125,7 +129,9 @@ void ExplicitMpm<Real>::prepare_block(std::int32_t slot) {
           stencil += first_moving;
         else if (field_)
           stencil = field_->stencil(node - Vec3i::Ones());
+        at_wall = at_wall || stencil >= 0;
       }
+  if (at_wall) grid_.want_strain(slot);
 }
 
 template <class Real>
@@ -188,6 +194,7 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
   const PointBlock& block = store_.blocks()[index];
   Node* tile = scratch.tile;
   for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile[n].clear();
+  bool strained = false;
   const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
   double mass = 0;
   for (int local = 0; local < BlockLayout::nodes; ++local) {
@@ -198,8 +205,13 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
         const Point& p = store_.points[slots[n]];
         mass += static_cast<double>(p.mass());
         contribute(p, scratch.point[n]);
-        if (stencil[local] >= 0)
-          hide_nodes(p, store_.key[slots[n]], stencil[local], scratch.point[n], impulses_[index]);
+        if (stencil[local] < 0) continue;
+        const bool beyond_edge =
+            hide_nodes(p, store_.key[slots[n]], stencil[local], scratch.point[n], impulses_[index]);
+        if (!beyond_edge && scratch.point[n].middle[node_lane::near_wall] == 0) continue;
+        if (!strained) std::fill_n(scratch.strain, BlockLayout::tile_nodes, typename Node::Half{});
+        strained = true;
+        scatter_strain(p, scratch.point[n], beyond_edge, scratch.strain + (corner - tile));
       }
       scatter({scratch.point, count}, corner);
       slots = slots.subspan(count);
@@ -207,6 +219,27 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
   }
   reports_[index].mass = mass;
   add_tile(block, tile);
+  if (strained) add_strain(block, scratch.strain);
+}
+
+template <class Real>
+void ExplicitMpm<Real>::scatter_strain(const Point& p, const Contribution& a, bool beyond_edge,
+                                       typename Node::Half* corner) const {
+  const Real m = p.mass(), half = m / 2;
+  typename Node::Half strain = {m * p.C[0][0],
+                                m * p.C[1][1],
+                                m * p.C[2][2],
+                                half * (p.C[1][2] + p.C[2][1]),
+                                half * (p.C[0][2] + p.C[2][0]),
+                                half * (p.C[0][1] + p.C[1][0]),
+                                0,
+                                0};
+  if (beyond_edge) {
+    strain = typename Node::Half{};
+    strain[6] = m;
+  }
+  for (int n = 0; n < 27; ++n)
+    corner[n % 3 + 6 * (n / 3 % 3) + 36 * (n / 9)] += a.weight[n / 3][n % 3] * strain;
 }
 
 /// Adds points of one cell: nodes stay in registers, nine at a time, while the points pass.
@@ -241,6 +274,14 @@ void ExplicitMpm<Real>::add_tile(const PointBlock& block, const Node* tile) {
   visit_tile(block, [&](std::int32_t slot, int to, int from, int length) {
     Node* nodes = grid_.nodes(slot);
     for (int n = 0; n < length; ++n) nodes[to + n].add(tile[from + n]);
+  });
+}
+
+template <class Real>
+void ExplicitMpm<Real>::add_strain(const PointBlock& block, const typename Node::Half* strain) {
+  visit_tile(block, [&](std::int32_t slot, int to, int from, int length) {
+    auto* nodes = grid_.strain(slot);
+    for (int n = 0; nodes && n < length; ++n) nodes[to + n] += strain[from + n];
   });
 }
 

@@ -241,6 +241,16 @@ int WallField::planes_of_point(int stencil, const Vec3& x, WallPlane* out, int m
   return count;
 }
 
+bool WallField::beyond_edge(int stencil, const Vec3& x) const {
+  const Implementation& field = *implementation_;
+  const StencilRecord& record = field.stencils.records[static_cast<std::size_t>(stencil)];
+  const Vec3 at = (x - field.origin) * field.per_h;
+  const auto patches = field.stencils.patches_of(record);
+  return std::any_of(patches.begin(), patches.end(), [&](const StencilPatch& p) {
+    return !p.near.covered() && std::abs(height_over(field.sight.plane(p), at)) < plane_reach;
+  });
+}
+
 std::span<const WallPlane> WallField::planes_of_node(const Vec3i& node) const {
   const int record = stencil(node - Vec3i::Ones());
   return record < 0 ? std::span<const WallPlane>{} : planes_at(record);

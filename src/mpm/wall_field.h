@@ -83,6 +83,11 @@ class WallField {
   /// one. At most `max` are written; returns how many.
   int planes_of_point(int stencil, const Vec3& x, WallPlane* out, int max) const;
 
+  /// True for a point that comes within 1.5 h of the plane of a wall, but beyond its free edge: the wall ends
+  /// before it.
+  /// @pre planes_of_point found none
+  bool beyond_edge(int stencil, const Vec3& x) const;
+
   /// Active planes of a node: as planes_of_point. Empty for nodes without walls near.
   std::span<const WallPlane> planes_of_node(const Vec3i& node) const;
   /// The same, for the node base + 1 of a stencil.

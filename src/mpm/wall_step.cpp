@@ -52,6 +52,17 @@ Vec3 vector_at(const Lanes<Real>& node, int lane) {
           static_cast<double>(node[lane + 2])};
 }
 
+/// @param sum  of m D of the points beside walls;  @param mass  theirs
+template <class Half>
+Mat3 mean_strain(const Half& sum, double mass) {
+  Mat3 mean;
+  for (int r = 0; r < 3; ++r) {
+    mean(r, r) = static_cast<double>(sum[r]) / mass;
+    mean((r + 1) % 3, (r + 2) % 3) = mean((r + 2) % 3, (r + 1) % 3) = static_cast<double>(sum[3 + r]) / mass;
+  }
+  return mean;
+}
+
 template <class Real>
 void add_to(Lanes<Real>& node, int lane, const Vec3& v) {
   for (int r = 0; r < 3; ++r) node[lane + r] += static_cast<Real>(v[r]);
@@ -90,7 +101,7 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
     }
     std::span<const WallPlane> planes;
     Vec3 at = Vec3::Zero();
-    double volume = 0;
+    WaterBeside water;
     const Vec3 cut_off = vector_at(node, gradient);
     if (const std::int32_t stencil = grid_.stencil(slot)[n]; stencil >= 0) {
       const Vec3i where = place + Vec3i(n & 3, (n >> 2) & 3, n >> 4);
@@ -98,19 +109,21 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
       planes = record.field->planes_at(record.stencil);
       if (!planes.empty()) {
         at = layout_.node_position(where);
-        volume =
+        water.volume =
             static_cast<double>(node[fill] * open_fraction(slot, n) * grid_.void_fraction(slot)[n]) * cell;
-        close_pressure(node, volume, planes, at, impulses);
+        if (node[near_wall] > 0) {
+          const auto& sum = grid_.strain(slot)[n];
+          const double beside = static_cast<double>(node[near_wall]);
+          water.strain = mean_strain(sum, beside);
+          water.chi = beside / (beside + static_cast<double>(sum[6]));
+        }
+        close_pressure(node, water, planes, at, impulses);
       }
     }
     const Real node_mass = node[mass];
-    const Real chi_mass = node[near_wall];
     for (int r = 0; r < 3; ++r)
       node[gradient + r] = node[change + r] - gravity_change[r] - static_cast<Real>(pushed[r]);
-    if (!planes.empty()) {
-      node[near_wall] = chi_mass;
-      hold_at_walls(node, volume, cut_off, planes, at, impulses);
-    }
+    if (!planes.empty()) hold_at_walls(node, water, cut_off, planes, at, impulses);
     const Real bulk = std::clamp((node[fill] - spray) * ramp, Real(0), Real(1));
     for (int r = 0; r < 3; ++r) node[velocity + r] *= bulk;
     node[mass] = bulk;
@@ -121,15 +134,15 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
 /// Near a wall the kernel is cut off and sum p grad w does not vanish: the wall pushes back with the
 /// pressure at its own place.
 template <class Real>
-void ExplicitMpm<Real>::close_pressure(Node& node, double volume, std::span<const WallPlane> planes,
-                                       const Vec3& at, WallImpulses& impulses) const {
+void ExplicitMpm<Real>::close_pressure(Node& node, const WaterBeside& water,
+                                       std::span<const WallPlane> planes, const Vec3& at,
+                                       WallImpulses& impulses) const {
   using namespace node_lane;
   const double m = static_cast<double>(node[mass]);
-  const double density = volume > 0 ? m / volume : config_.fluid.density;
+  const double density = water.volume > 0 ? m / water.volume : config_.fluid.density;
   const double e = static_cast<double>(node[dilation]);
-  const double mean_pressure = -density * sound_speed_ * sound_speed_ * e / (1 + e);
+  const double mean_pressure = -density * sound_speed_ * sound_speed_ * e;  // as V p = -m c2 e of the points
   if (!(mean_pressure > 0)) return;
-  const double chi = static_cast<double>(node[near_wall]) / m;
   const Vec3 centre_offset = config_.spacing * vector_at(node, centre);  // of the water from the node
   Vec3 c = vector_at(node, gradient);
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -143,25 +156,27 @@ void ExplicitMpm<Real>::close_pressure(Node& node, double volume, std::span<cons
         0.0,
         mean_pressure +
             density * (gravity_ - surge * plane.normal).dot(plane.distance * plane.normal - centre_offset));
-    const Vec3 impulse = -step_.dt * chi * at_wall * cn * plane.normal;
+    const Vec3 impulse = -step_.dt * water.chi * at_wall * cn * plane.normal;
     add_to(node, change, impulse / m);
     add_with_images(planes, k, config_.spacing, -impulse, contact, impulses);
     c -= cn * plane.normal;
   }
 }
 
-/// No flow into walls, and friction along them.
+/// No flow into walls, and friction along them. A wall mirrors the flow: a node holds the mean of the water
+/// that it sees and of its image. Where the water would move into the wall at u, and evenly, the share 2 F(s)
+/// of the image takes that much of u from the node; where its normal part fades towards the wall, as it does
+/// beside any wall along which water flows, u is what is left of it at the wall, not at the node.
 /// @param cut_off  sum V grad w of the points, which is zero where the kernel is whole [m2]
 template <class Real>
-void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, Vec3 cut_off,
+void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3 cut_off,
                                       std::span<const WallPlane> planes, const Vec3& at,
                                       WallImpulses& impulses) const {
   using namespace node_lane;
   const double h = config_.spacing;
   const double m = static_cast<double>(node[mass]);
-  const double chi = static_cast<double>(node[near_wall]) / m;
   const bool pressed = node[dilation] < 0;
-  const double density = volume > 0 ? m / volume : config_.fluid.density;
+  const double density = water.volume > 0 ? m / water.volume : config_.fluid.density;
   const bool no_slip = config_.wall_slip == WallSlip::no_slip;
   const double rest_density = density * (1 + static_cast<double>(node[dilation]));
   Vec3 v = vector_at(node, velocity) + vector_at(node, change);
@@ -171,12 +186,14 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, Vec3 cut_off,
     const Vec3 contact = at + plane.distance * plane.normal;
     const Vec3 surface = poses_.surface_velocity(plane.wall, contact);
     const double s = plane.distance / h;
-    const double hold = chi * 2 * spline_beyond(s);
+    const double hold = water.chi * 2 * spline_beyond(s);
     const double vn = (v - poses_.velocity(plane.wall, contact)).dot(plane.normal);
+    const double at_wall = vn + plane.distance * plane.normal.dot(water.strain * plane.normal);
     Vec3 held = Vec3::Zero(), change_here = Vec3::Zero();
-    if (vn > 0 || pressed) {
-      held = change_here = -hold * vn * plane.normal;
-      impulses.add_impact(plane.wall, std::max(0.0, 0.5 * m * vn * vn * (1 - (1 - hold) * (1 - hold))));
+    if (at_wall > 0 || pressed) {
+      const double change = -hold * at_wall;
+      held = change_here = change * plane.normal;
+      impulses.add_impact(plane.wall, std::max(0.0, -0.5 * m * change * (2 * vn + change)));
     }
     const Vec3 sliding = v - surface - (v - surface).dot(plane.normal) * plane.normal;
     double kept = 1;
@@ -187,12 +204,12 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, double volume, Vec3 cut_off,
       cut_off -= cn * plane.normal;
       const double arm = std::max(0.0, plane.distance - h * plane.normal.dot(node_offset));
       const double viscosity = arm > 0 && cn > 0 ? viscosity_of(rest_density, sliding.norm() / arm) : 0.0;
-      kept = arm > 0 ? arm / (arm + step_.dt * chi * viscosity * cn / m) : 0.0;
+      kept = arm > 0 ? arm / (arm + step_.dt * water.chi * viscosity * cn / m) : 0.0;
     } else if (config_.wall_slip == WallSlip::turbulent_film) {
       // Stress rho f/8 |u| u on the wall area that this node stands for; implicit, so never beyond rest.
       const double rate =
-          density * config_.film_friction / 8 * h * h * film_share(s, volume / (h * h * h)) / m;
-      kept = 1 / (1 + chi * rate * step_.dt * sliding.norm());
+          density * config_.film_friction / 8 * h * h * film_share(s, water.volume / (h * h * h)) / m;
+      kept = 1 / (1 + water.chi * rate * step_.dt * sliding.norm());
     }
     if (kept != 1) {
       change_here -= (1 - kept) * sliding;

@@ -125,7 +125,7 @@ TEST(ResolvedRock, GivesTheWaterWhatItTakes) {
   EXPECT_LT((change - given).norm(), 1e-5 * bath.water->impulse_from_gravity().norm());
   EXPECT_GT(sum, 0);
   EXPECT_NEAR((bath.rocks->impulse_from_fluid() - bath.coupling->impulse_on_rocks()).norm(), 0, 1e-12);
-  EXPECT_LT(std::abs(bath.rocks->rocks().w[0].z()), 20) << "friction slows its spin";
+  EXPECT_NEAR(bath.rocks->rocks().w[0].z(), 20, 0.1) << "nothing but the film's friction turns it";
 }
 
 std::uint64_t hash_of(const Pool& pool) {
