@@ -65,6 +65,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"water_taylor_green", "point", made<WaterTaylorGreen>},
       {"water_channel", "point", made<WaterChannel>},
       {"water_sloshing", "point", made<WaterSloshing>},
+      {"water_wave_decay", "point", made<WaterWaveDecay>},
       {"water_tilted", "point", made<WaterTilted>},
       {"water_dam_break", "point", made<WaterDamBreak>},
       {"water_jet", "point", made<WaterJet>},
