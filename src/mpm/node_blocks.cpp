@@ -84,12 +84,14 @@ void NodeBlocks<Real>::hold_void_fractions() {
 
 template <class Real>
 void NodeBlocks<Real>::hold_strains() {
+  std::size_t held = strain_.size() / BlockLayout::nodes;
   for (const std::int32_t block : active_) {
     std::int32_t& n = strain_slot_[static_cast<std::size_t>(slot_of(block))];
-    if (n != wanted_strain) continue;
-    n = static_cast<std::int32_t>(strain_.size() / BlockLayout::nodes);
-    strain_.resize(strain_.size() + BlockLayout::nodes);
+    if (n == wanted_strain) n = static_cast<std::int32_t>(held++);
   }
+  const std::size_t nodes = held * BlockLayout::nodes;
+  if (nodes > strain_.capacity()) strain_.reserve(strain_.empty() ? nodes : nodes + nodes / 16);
+  strain_.resize(nodes);
 }
 
 /// Room for so many slots, and a sixteenth more when that is needed at all, not twice as much.
