@@ -96,7 +96,7 @@ double decay_rate(StandingWave& wave, double omega, double periods) {
   }
   if (n < 3)
     throw NumericalError("wave-decay", scene.t, "the wave did not swing often enough",
-                         "raise 'cells' or 'amplitude'");
+                         "raise 'periods' or 'amplitude'");
   return -(n * ty - t1 * y1) / (n * t2 - t1 * t1);
 }
 
