@@ -68,6 +68,7 @@ struct ValidateOptions {
   std::vector<std::string> scene_keys;
   int threads = 0;  ///< 0: all
   bool quick = false, list = false;
+  bool update = false;    ///< renews these cases in the record that `out` has already
   bool extremes = false;  ///< those of `validation/extremes/` instead
 };
 int validate_cases(const ValidateOptions& options);

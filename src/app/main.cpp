@@ -98,6 +98,8 @@ int main(int argc, char** argv) {
       app.add_subcommand("validate", "error against run time of the cases in validation/, and their gates");
   validate_command->add_option("cases", validate.names, "names of cases [all]");
   validate_command->add_flag("--quick", validate.quick, "first rungs only");
+  validate_command->add_flag("--update", validate.update,
+                             "renew these cases in the record of reports/ (or --out), keep the others");
   validate_command->add_flag("--extremes", validate.extremes,
                              "how far hard settings go: the cases in validation/extremes/");
   validate_command->add_flag("--list", validate.list, "one case a line; run nothing");

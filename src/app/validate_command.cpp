@@ -9,6 +9,7 @@
 #include "processes/input_node.h"
 #include "reports/validation_page.h"
 #include "sluice_version.h"
+#include "validation/kept_cases.h"
 #include "validation/ladder.h"
 
 namespace sluice {
@@ -48,17 +49,29 @@ std::string command_line(const ValidateOptions& options) {
   std::string line = "sluice validate";
   for (const std::string& name : options.names) line += " " + name;
   if (options.quick) line += " --quick";
+  if (options.update) line += " --update";
   if (!options.rung.empty()) line += " --rung '" + options.rung + "'";
   for (const std::string& key : options.scene_keys) line += " --set '" + key + "'";
   return line + fmt::format(" --threads {}", thread_count());
 }
 
-/// The record of all cases replaces the committed one; any part of it goes beside other output.
+/// The record of all cases replaces the committed one or renews a part of it; any other part goes beside
+/// other output.
 std::filesystem::path out_folder(const ValidateOptions& options) {
   if (!options.out.empty()) return options.out;
   const bool everything =
       options.names.empty() && !options.quick && options.rung.empty() && options.scene_keys.empty();
-  return everything ? "reports" : "out/validation";
+  return everything || options.update ? "reports" : "out/validation";
+}
+
+/// Puts a case where it stands in the order of names.
+void put(ValidationRecord& record, ValidationCase one) {
+  const auto at = std::find_if(record.cases.begin(), record.cases.end(),
+                               [&](const ValidationCase& c) { return c.name >= one.name; });
+  if (at != record.cases.end() && at->name == one.name)
+    *at = std::move(one);
+  else
+    record.cases.insert(at, std::move(one));
 }
 
 }  // namespace
@@ -67,19 +80,23 @@ int validate_cases(const ValidateOptions& options) {
   if (options.threads > 0) set_thread_count(options.threads);
   if ((!options.rung.empty() || !options.scene_keys.empty()) && options.names.size() != 1)
     throw InputError({{"sluice validate", 0, 0}, "", "--rung and --set need one case", "", "name it"});
+  if (options.update && (options.quick || !options.rung.empty() || !options.scene_keys.empty()))
+    throw InputError({{"sluice validate", 0, 0},
+                      "",
+                      "--update takes no --quick, --rung or --set",
+                      "a record holds whole ladders of the cases as they are",
+                      "leave one out"});
   const std::vector<Case> cases = asked_cases(options);
   if (options.list) {
     list_cases(cases);
     return 0;
   }
 
+  const std::filesystem::path folder = out_folder(options);
   ValidationRecord record;
-  record.version = program_version;
-  record.commit = program_commit;
-  record.compiler = program_compiler;
-  record.flags = program_flags;
-  record.cpu = processor_name();
-  record.threads = thread_count();
+  if (options.update) record.cases = kept_cases(folder / "validation.json", case_folders(options.cases));
+  record.made_by = {program_version, program_commit,   program_compiler,
+                    program_flags,   processor_name(), thread_count()};
   record.command = command_line(options);
   LadderOptions ladder;
   ladder.extent = options.quick ? LadderExtent::quick : LadderExtent::whole;
@@ -91,18 +108,19 @@ int validate_cases(const ValidateOptions& options) {
                !r.stable ? "unstable: " + r.message : (r.passed() ? "" : "FAIL ") + r.message);
     std::fflush(stdout);
   };
+  std::vector<ValidationCase> failed;
+  std::size_t run = 0;
   for (const Case& c : cases) {
     if (options.quick && c.config.ladder.quick == 0) continue;
-    record.cases.push_back(run_ladder(c, ladder));
+    ValidationCase one = run_ladder(c, ladder);
+    one.made_by = record.made_by;
+    if (!one.passed()) failed.push_back(one);
+    ++run;
+    put(record, std::move(one));
+    write_validation_page(folder, record);  // what is done stays, whatever becomes of the rest
   }
-  const std::filesystem::path folder = out_folder(options);
-  write_validation_page(folder, record);
-
   fmt::print("page: {}\n", (folder / "validation.html").string());
-  int failed = 0;
-  for (const ValidationCase& c : record.cases) {
-    if (c.passed()) continue;
-    ++failed;
+  for (const ValidationCase& c : failed) {
     const bool order = c.whole() && c.least_order && !(c.order && *c.order >= *c.least_order);
     fmt::print(stderr, "{}: a gate failed{}{}\n", c.name,
                order ? fmt::format(" (observed order {}, at least {} asked)",
@@ -110,9 +128,8 @@ int validate_cases(const ValidateOptions& options) {
                      : "",
                c.shortfall.empty() ? "" : ", a known shortfall: " + c.shortfall);
   }
-  fmt::print("{} of {} cases passed\n", record.cases.size() - static_cast<std::size_t>(failed),
-             record.cases.size());
-  return failed > 0 ? gate_failed : 0;
+  fmt::print("{} of {} cases passed\n", run - failed.size(), run);
+  return failed.empty() ? 0 : gate_failed;
 }
 
 }  // namespace sluice

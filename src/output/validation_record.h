@@ -32,8 +32,16 @@ struct ValidationRung {
   double nanoseconds() const { return particle_steps > 0 ? 1e9 * seconds / particle_steps : 0; }
 };
 
+/// Who measured, and on what.
+struct MadeBy {
+  std::string version, commit, compiler, flags, cpu;
+  int threads = 0;
+  bool operator==(const MadeBy&) const = default;
+};
+
 struct ValidationCase {
   std::string name, title, group, norm, vary, source, why;
+  MadeBy made_by;
   std::string shortfall;              ///< why it is known to miss a gate; empty where it is not
   std::string particle;               ///< "rock", "point" or "sample"
   std::vector<ValidationRung> rungs;  ///< coarse to fine; only those that were run
@@ -46,11 +54,12 @@ struct ValidationCase {
 };
 
 struct ValidationRecord {
-  std::string version, commit, compiler, flags, cpu, command;
-  int threads = 0;
+  MadeBy made_by;       ///< the newest of the cases
+  std::string command;  ///< of those
   std::vector<ValidationCase> cases;
 
   bool passed() const;
+  bool of_one_build() const;  ///< on one machine
 };
 
 std::string validation_json(const ValidationRecord& record);

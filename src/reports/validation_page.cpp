@@ -52,7 +52,7 @@ const ValidationRung* last_rung(const ValidationCase& c) {
   return c.rungs.empty() ? nullptr : &c.rungs.back();
 }
 
-std::string provenance(const ValidationRecord& r) {
+std::string provenance(const MadeBy& r) {
   return fmt::format("Sluice {} (commit {}), {} `{}`, {} threads on {}", r.version, r.commit, r.compiler,
                      r.flags, r.threads, r.cpu);
 }
@@ -67,7 +67,12 @@ std::string overview(const ValidationRecord& record) {
                     last ? significant(last->error) : "-", last ? significant(last->gate) : "-",
                     order_words(c), duration(seconds), coloured(verdict(c))});
   }
-  return html_table({"case", "group", "error, last rung", "gate", "order", "run time", "outcome"}, rows);
+  const std::string note =
+      record.of_one_build()
+          ? ""
+          : "<p class=\"note\">Not all cases were run by one build: each says by which.</p>";
+  return note +
+         html_table({"case", "group", "error, last rung", "gate", "order", "run time", "outcome"}, rows);
 }
 
 std::string rung_table(const ValidationCase& c) {
@@ -116,6 +121,7 @@ std::string case_body(const ValidationCase& c) {
   out += rung_table(c) + chart_of(c);
   if (const ValidationRung* last = last_rung(c); last && !last->values.empty())
     out += "<details><summary>values</summary>" + value_table(*last) + "</details>";
+  out += "<p class=\"note\">Run by " + html(provenance(c.made_by)) + "</p>";
   return out + fmt::format("<p class=\"note\">Set-up and physics: validation/{}/README.md</p>", html(c.name));
 }
 
@@ -131,7 +137,7 @@ std::string validation_html(const ValidationRecord& record) {
   Page page;
   page.title = "Validation: error against run time";
   page.chip = record.passed() ? "completed" : "failed";
-  page.lines = {provenance(record), record.command};
+  page.lines = {provenance(record.made_by), record.command};
   page.sections.push_back({"overview", "All cases", overview(record)});
   for (const ValidationCase& c : record.cases) page.sections.push_back({c.name, c.title, case_body(c)});
   return page_html(page);
@@ -139,8 +145,9 @@ std::string validation_html(const ValidationRecord& record) {
 
 std::string validation_markdown(const ValidationRecord& record) {
   std::string out = fmt::format(
-      "# Validation: error against run time\n\n{}\n\nWritten by `{}`. Outcome: {}.\n\n", provenance(record),
-      record.command, record.passed() ? "every gate passed" : "a gate FAILED");
+      "# Validation: error against run time\n\n{}\n\nWritten by `{}`. Outcome: {}.\n\n",
+      provenance(record.made_by), record.command, record.passed() ? "every gate passed" : "a gate FAILED");
+  if (!record.of_one_build()) out += "Not all cases were run by one build: each says by which.\n\n";
   out += "| case | group | error, last rung | gate | order | outcome |\n|---|---|---|---|---|---|\n";
   for (const ValidationCase& c : record.cases) {
     const ValidationRung* last = last_rung(c);
@@ -152,6 +159,7 @@ std::string validation_markdown(const ValidationRecord& record) {
     out += fmt::format("\n## {}: {}\n\n{}. Norm: {}; observed order: {}. Reference: {}\n\n{}{}\n\n", c.name,
                        c.title, verdict(c), c.norm, order_words(c), c.source, c.why,
                        c.shortfall.empty() ? "" : " Known shortfall: " + c.shortfall);
+    out += "Run by " + provenance(c.made_by) + "\n\n";
     out += fmt::format("| {} | error | gate | seconds | ns per {}-step | stable | outcome | command |\n",
                        c.vary, c.particle);
     out += "|---|---|---|---|---|---|---|---|\n";

@@ -28,9 +28,9 @@ ValidationRecord sample() {
     c.rungs.push_back(r);
   }
   ValidationRecord record;
-  record.commit = "abc123";
+  record.made_by.commit = "abc123";
   record.command = "sluice validate --threads 2";
-  record.threads = 2;
+  record.made_by.threads = 2;
   record.cases = {c};
   return record;
 }
