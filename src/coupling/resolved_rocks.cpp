@@ -46,6 +46,8 @@ void ResolvedRocks::follow_rocks(double dt) {
       held.before = known->now;
       held.before.at = before;
       held.twist = twist_between(held.before, held.now, dt);
+      if (rocks_.shapes()[static_cast<std::size_t>(all.shape[r])].is_sphere())
+        held.twist.w = all.w[r];  // its orientation is not kept
     }
     now.push_back(held);
   }
