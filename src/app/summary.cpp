@@ -10,6 +10,7 @@
 #include "analysis/mixing.h"
 #include "app/exit_results.h"
 #include "base/parallel.h"
+#include "coupling/resolved_rocks.h"
 #include "output/tables.h"
 #include "sluice_version.h"
 
@@ -281,6 +282,10 @@ RunManifest make_manifest(const RunState& run, Outcome outcome,
     m.budgets.fines = budget_entry(parts, masses.fines, parts.initial_fines_kg, &Inflow::fines);
     m.memory.fluid_bytes = static_cast<std::int64_t>(parts.water->memory_bytes());
   }
+  if (const ResolvedExtent* resolved = parts.coupling ? parts.coupling->resolved() : nullptr)
+    m.resolved = RunManifest::Resolved{resolved->from, resolved->partly_from,
+                                       static_cast<std::int64_t>(resolved->most_whole),
+                                       static_cast<std::int64_t>(resolved->most_partly)};
   m.memory.peak_bytes = peak_bytes();
   m.budgets.momentum_residual_N_s = momentum_gap(parts);
   m.budgets.energy = energy_terms(parts);

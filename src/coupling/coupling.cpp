@@ -22,6 +22,8 @@ constexpr double least_void_fraction = 0.3;
 struct RockOnGrid {
   LevelWeights place;  ///< weights over all nodes; once wetted, times fluid mass: sum 1 either way
   int level = 0;
+  double core = 0;   ///< size of what is resolved of it, over its own
+  double outer = 1;  ///< volume of the rest, over its own
   double wetted = 0;
   double take_up = 0;    ///< b of the header [kg]
   double displaced = 0;  ///< wetted volume [m3]
@@ -50,7 +52,8 @@ struct Coupling::Implementation {
         domain(domain) {
     points = wetting_points(r.shapes(), static_cast<int>(c.wetting_points));
     if (c.resolve_from) {
-      resolved = std::make_unique<ResolvedRocks>(*c.resolve_from * f.spacing(), r, f);
+      resolved =
+          std::make_unique<ResolvedRocks>(c.partly_from() * f.spacing(), *c.resolve_from * f.spacing(), r, f);
       skins = skin_points(r.shapes(), static_cast<int>(c.wetting_points));
     }
     for (const RockShape& shape : r.shapes()) {
@@ -69,8 +72,13 @@ struct Coupling::Implementation {
   void share_impulses(double dt);
   void give_to_fluid();
   void filter_acceleration(double dt);
+  Vec3 explicit_force(std::size_t rock) const {
+    return resolved ? Vec3(buoyancy[rock] + beyond_core[rock]) : buoyancy[rock];
+  }
+  double filter_time() const {
+    return config.filter_time_factor * fluid.spacing() / fluid.limits().sound_speed;
+  }
   double solids_fraction_around(std::size_t rock) const;
-  bool resolves(std::size_t rock) const { return resolved && resolved->resolves(rock); }
 
   CouplingConfig config;
   Vec3 gravity;
@@ -91,6 +99,8 @@ struct Coupling::Implementation {
   SlabOrder by_slab;
   std::vector<double> wetted;
   std::vector<Vec3> drag, buoyancy, force, torque;
+  std::vector<Vec3> core_force,
+      beyond_core;  // where rocks are resolved: on the core, and what is missing [N]
   FromRocks to_nodes;
   std::vector<Vec3> node_acceleration;
   std::vector<double> void_fraction;
@@ -118,6 +128,16 @@ void CouplingConfig::keys(Schema& s) {
             .doc = "rocks at least this many times the water's spacing large are met by the water with their "
                    "own shape, as walls that move; without it, none are"});
   if (s.given("resolve_from")) resolve_from_at = s.at("resolve_from");
+  s.number(
+      "resolve_partly_from", resolve_partly_from,
+      {.above = 0,
+       .doc = "from this many times the water's spacing on, up to resolve_from, a growing core of a rock is "
+              "met so, and the rest as in small rocks; a third of resolve_from unless given",
+       .applies = resolve_from.has_value(),
+       .applies_to = "resolve_from"});
+  if (resolve_from && resolve_partly_from && *resolve_partly_from > *resolve_from)
+    s.problem("resolve_partly_from", "is above resolve_from",
+              "rocks are resolved in part before they are resolved whole", "lower it");
   s.integer("wetting_points", wetting_points,
             {.at_least = 8, .at_most = 256, .doc = "points in each rock that find its wetted fraction"});
 }
@@ -127,7 +147,9 @@ void Coupling::Implementation::place_rocks() {
   on_grid.resize(all.count());
   std::vector<double> largest(static_cast<std::size_t>(grid.coarsest()) + 1, 0.0);
   for (std::size_t r = 0; r < all.count(); ++r) {
-    if (resolves(r)) continue;
+    on_grid[r].core = resolved ? resolved->core(r) : 0;
+    on_grid[r].outer = 1 - on_grid[r].core * on_grid[r].core * on_grid[r].core;
+    if (on_grid[r].core == 1) continue;
     on_grid[r].level = grid.level_for(config.kernel_diameters * all.size[r]);
     double& size = largest[static_cast<std::size_t>(on_grid[r].level)];
     size = std::max(size, all.size[r]);
@@ -140,10 +162,11 @@ void Coupling::Implementation::place_rocks() {
   parallel_for(all.count(),
                [&](std::size_t r) { on_grid[r].place = grid.weights(on_grid[r].level, all.x[r]); });
   by_slab.sort(all.count(), grid.slab_count(),
-               [&](std::size_t r) { return resolves(r) ? -1 : on_grid[r].place.slab; });
+               [&](std::size_t r) { return on_grid[r].core == 1 ? -1 : on_grid[r].place.slab; });
   grid.clear_solids();
   grid.each_slab(by_slab, [&](std::size_t, std::span<const std::uint32_t> items) {
-    for (const std::uint32_t r : items) grid.add_solids(on_grid[r].level, on_grid[r].place, rocks.volume(r));
+    for (const std::uint32_t r : items)
+      grid.add_solids(on_grid[r].level, on_grid[r].place, on_grid[r].outer * rocks.volume(r));
   });
 }
 
@@ -154,7 +177,7 @@ double Coupling::Implementation::solids_fraction_around(std::size_t r) const {
   double fraction = 0;
   for (int l = grid.finest(); l <= grid.coarsest(); ++l) {
     const CouplingLevel& level = grid.level(l);
-    const double own = l == rock.level ? rocks.volume(r) : 0;
+    const double own = l == rock.level ? rock.outer * rocks.volume(r) : 0;
     const LevelWeights w = l == rock.level ? rock.place : grid.weights(l, rocks.rocks().x[r]);
     for (std::size_t c = 0; c < 8; ++c) {
       const NodeLanes& node = level.fluid_at(w.node[c]);
@@ -195,6 +218,10 @@ void Coupling::Implementation::meet_water(double dt) {
   const std::size_t count = rocks.rocks().count();
   wetted.resize(count);
   buoyancy.resize(count);
+  if (resolved) {
+    beyond_core.resize(count);
+    resolved->filtered_force(core_force);
+  }
   keep_filter_with_rocks();
   parallel_for(
       count, [&](std::size_t r) { meet_water(r, dt); }, 64);
@@ -207,27 +234,31 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
   const CouplingLevel& level = grid.level(rock.level);
   rock.wetted = rock.take_up = rock.displaced = wetted[r] = 0;
   buoyancy[r] = Vec3::Zero();
-  if (resolves(r)) {
-    const double grown = all.size[r] + 2 * wet_beside * fluid.spacing();
-    wetted[r] =
-        table.wetted_fraction(skins[static_cast<std::size_t>(all.shape[r])], all.x[r],
-                              all.q[r].toRotationMatrix() * grown, all.radius[r] * grown / all.size[r]);
-    return;
+  if (resolved) beyond_core[r] = Vec3::Zero();
+  const auto shape = static_cast<std::size_t>(all.shape[r]);
+  if (rock.core > 0) {  // water stands beside what is resolved, not in it
+    const double beside = rock.core * all.size[r] + 2 * wet_beside * fluid.spacing();
+    const double grown = std::max(all.size[r], beside);
+    rock.wetted = table.wetted_fraction(skins[shape], all.x[r], all.q[r].toRotationMatrix() * grown,
+                                        all.radius[r] * grown / all.size[r]);
+    wetted[r] = rock.wetted;
+    if (rock.core == 1) rock.wetted = 0;
+    if (rock.wetted <= 0) return;
   }
   NodeLanes sums{};
   for (std::size_t c = 0; c < 8; ++c) sums += rock.place.weight[c] * level.fluid_at(rock.place.node[c]);
   const double mass = sums[fluid_lane::mass];
-  if (mass > 0)
-    rock.wetted = table.wetted_fraction(points[static_cast<std::size_t>(all.shape[r])], all.x[r],
-                                        all.q[r].toRotationMatrix() * all.size[r], all.radius[r]);
+  if (!(mass > 0)) rock.wetted = 0;
+  if (mass > 0 && rock.core == 0)
+    wetted[r] = rock.wetted = table.wetted_fraction(points[shape], all.x[r],
+                                                    all.q[r].toRotationMatrix() * all.size[r], all.radius[r]);
   if (rock.wetted <= 0) return;
-  wetted[r] = rock.wetted;
-  rock.displaced = rock.wetted * rocks.volume(r);
+  rock.displaced = rock.wetted * rock.outer * rocks.volume(r);
 
   DragInput in;
   in.density = sums[fluid_lane::density] / mass;
   in.viscosity = sums[fluid_lane::viscosity] / mass;
-  in.diameter = all.size[r] * diameter_per_size[static_cast<std::size_t>(all.shape[r])];
+  in.diameter = all.size[r] * diameter_per_size[shape];
   in.void_fraction = std::max(least_void_fraction, 1 - solids_fraction_around(r));
   constexpr int p = fluid_lane::momentum;
   const Vec3 slip = Vec3(sums[p], sums[p + 1], sums[p + 2]) / mass - all.v[r];
@@ -235,13 +266,18 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
   const FluidModel& model = fluid.model();
   if (model.rheology != Rheology::newtonian)
     in.viscosity = viscosity_around(model, fines_fraction(model, in.density), in.speed, in.diameter);
-  const auto shape = static_cast<std::size_t>(all.shape[r]);
   in.sphericity = rocks.shapes()[shape].sphericity;
   if (!cross_sections.empty() && in.speed > 0) {
     const double section = cross_sections[shape].seen_along(all.q[r].conjugate() * (slip / in.speed));
     in.crosswise = std::numbers::pi / 4 * std::pow(diameter_per_size[shape], 2) / section;
   }
-  const double beta = rock.wetted * drag_per_speed(config.drag, in);
+  double beta = rock.wetted * drag_per_speed(config.drag, in);
+  if (rock.core > 0) {
+    const double square = rock.core * rock.core, whole = rock.wetted * rocks.volume(r);
+    beta *= 1 - square * square * square;
+    beyond_core[r] =
+        (square * square - 1) * (core_force[r] - (1 - rock.outer) * whole * in.density * filtered[r]);
+  }
   rock.take_up = -all.mass[r] * std::expm1(-beta * dt / all.mass[r]);
   // The filtered acceleration is evaluated in fluid_to_grid; here it becomes an impulse on both sides.
   buoyancy[r] = rock.displaced * in.density * filtered[r];
@@ -256,7 +292,9 @@ void Coupling::Implementation::add_to_nodes(double dt) {
       const RockOnGrid& rock = on_grid[r];
       if (rock.wetted <= 0) continue;
       CouplingLevel& level = grid.level(rock.level);
-      const Vec3 bv = rock.take_up * all.v[r], lift = dt * buoyancy[r];
+      Vec3 bv = rock.take_up * all.v[r];
+      if (resolved) bv -= dt * beyond_core[r];
+      const Vec3 lift = dt * buoyancy[r];
       const NodeLanes sums{rock.take_up, bv.x(),    bv.y(),    bv.z(),
                            -lift.x(),    -lift.y(), -lift.z(), rock.displaced};
       for (std::size_t c = 0; c < 8; ++c) level.rock_at(rock.place.node[c]) += rock.place.weight[c] * sums;
@@ -297,7 +335,8 @@ void Coupling::Implementation::share_impulses(double dt) {
       constexpr int u = rock_lane::velocity;
       drag[r] = rock.take_up / dt * (Vec3(sums[u], sums[u + 1], sums[u + 2]) - all.v[r]);
     }
-    force[r] = drag[r] + buoyancy[r];
+    force[r] = drag[r] + explicit_force(r);
+    if (resolved) drag[r] += beyond_core[r];
   });
   on_rocks += dt * parallel_sum<Vec3>(
                        all.count(), [&](std::size_t r) { return force[r]; }, Vec3::Zero());
@@ -324,7 +363,7 @@ void Coupling::Implementation::give_to_fluid() {
 }
 
 void Coupling::Implementation::filter_acceleration(double dt) {
-  const double tau = config.filter_time_factor * fluid.spacing() / fluid.limits().sound_speed;
+  const double tau = filter_time();
   const double share = tau > 0 ? -std::expm1(-dt / tau) : 1.0;
   parallel_for(filtered.size(), [&](std::size_t r) {
     const RockOnGrid& rock = on_grid[r];
@@ -345,8 +384,8 @@ Coupling::Coupling(const CouplingConfig& config, const Domain& domain, const Vec
     : implementation_(std::make_unique<Implementation>(config, domain, gravity, rocks, fluid)) {}
 Coupling::~Coupling() = default;
 
-bool Coupling::resolves() const {
-  return implementation_->resolved != nullptr;
+const ResolvedExtent* Coupling::resolved() const {
+  return implementation_->resolved ? &implementation_->resolved->extent() : nullptr;
 }
 
 std::vector<RemovedPoint> Coupling::make_room() {
@@ -364,7 +403,7 @@ void Coupling::take_resolved(double dt, int k, int n) {
   c.on_rocks += c.resolved->impulse() - before;
   c.on_fluid -= c.resolved->impulse() - before;
   if (k + 1 < n) return;
-  c.resolved->mean_loads(dt, c.force, c.torque);
+  c.resolved->add_mean_loads(dt, c.filter_time(), c.force, c.torque);
   c.rocks.set_fluid_force(c.force, c.torque);
 }
 

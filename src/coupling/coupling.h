@@ -1,7 +1,7 @@
 #pragma once
-/// What rock and water do to each other. Rocks of many cells are resolved, if asked (resolved_rocks.h). All
-/// others are not: void fraction and drag on a coupling grid that is coarser than the fluid's nodes, called
-/// between points_to_grid and walls of a fluid step.
+/// What rock and water do to each other. Rocks of many cells are resolved, if asked (resolved_rocks.h), those
+/// of a few in part. All else is not: void fraction and drag on a coupling grid that is coarser than the
+/// fluid's nodes, called between points_to_grid and walls of a fluid step.
 ///
 ///   solids_to_grid  rocks -> volume on the coupling grid (kernel renormalised per rock)
 ///   drag            fluid nodes -> coupling grid; wetted fraction, drag, buoyancy; the same impulse to
@@ -21,6 +21,13 @@
 /// weight of water and rock together in a suspension that neither rises nor falls. The fluid carries the
 /// pressure gradient of the whole space and gives the rocks' share back through this impulse. No torque and
 /// no added mass in this range.
+///
+/// A rock that is resolved in part has a core of c times its size (resolved_rocks.h). Void fraction and
+/// buoyancy here are those of the other 1 - c^3 of its volume. Its drag is the share c^6 of that of a body of
+/// its size which is met as the core is, 1 / c^2 times the core's, and the share 1 - c^6 of the law's: here
+/// acts what is missing to that. The core's drag is its force, filtered, less its buoyancy. So all are
+/// continuous in the size of rocks, from a chip to a lump, and small cores, whose drag cells exaggerate,
+/// count little.
 
 #include <memory>
 #include <optional>
@@ -33,6 +40,8 @@
 
 namespace sluice {
 
+struct ResolvedExtent;
+
 enum class CouplingMode { two_way, one_way };  ///< one-way: rocks feel the water, not the other way round
 /// Keys under `coupling:` of a process file.
 struct CouplingConfig {
@@ -43,7 +52,9 @@ struct CouplingConfig {
   std::int64_t wetting_points = 32;  ///< points on each rock that find its wetted fraction
   /// Size over the water's spacing from which on rocks are resolved; none are where it is not given.
   std::optional<double> resolve_from;
+  std::optional<double> resolve_partly_from;  ///< the same for their core; a third of it where not given
   Location resolve_from_at;
+  double partly_from() const { return resolve_partly_from.value_or(resolve_from.value_or(0) / 3); }
   void keys(Schema& s);
 };
 
@@ -55,7 +66,8 @@ class Coupling {
   ~Coupling();
 
   /// True where rocks may be resolved: only then the two calls around each fluid step are needed.
-  bool resolves() const;
+  bool resolves() const { return resolved() != nullptr; }
+  const ResolvedExtent* resolved() const;  ///< null where none may be
   /// Takes water out of the fluid that lies inside resolved rocks: where both were put in one place.
   std::vector<RemovedPoint> make_room();
   /// Before and after substep k of the fluid's n in a step of dt [s].
@@ -69,8 +81,8 @@ class Coupling {
   void fluid_to_grid(double dt);
 
   const std::vector<double>& wetted_fraction() const;  ///< per rock, of the last call, 0..1
-  const std::vector<Vec3>& drag_force() const;         ///< per rock, zero where resolved [N]
-  const std::vector<Vec3>& buoyancy_force() const;     ///< per rock, zero where resolved [N]
+  const std::vector<Vec3>& drag_force() const;         ///< per rock, of what is not resolved [N]
+  const std::vector<Vec3>& buoyancy_force() const;     ///< per rock, of what is not resolved [N]
   const std::vector<Vec3>& force() const;              ///< all of it, per rock [N]
   const std::vector<Vec3>& torque() const;             ///< per rock [N m]
   Vec3 impulse_on_rocks() const;                       ///< since start [N s]

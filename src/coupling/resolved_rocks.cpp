@@ -7,6 +7,9 @@ namespace sluice {
 
 namespace {
 
+/// A smaller core holds back water as a far larger one would [cells].
+constexpr double least_core = 2;
+
 Pose part_way(const Pose& from, const Pose& to, const Twist& twist, double time, double share) {
   if (share <= 0) return from;
   if (share >= 1) return to;
@@ -20,15 +23,22 @@ Pose part_way(const Pose& from, const Pose& to, const Twist& twist, double time,
 
 }  // namespace
 
-ResolvedRocks::ResolvedRocks(double from_size, DemSystem& rocks, FluidSystem& fluid)
-    : from_size_(from_size), rocks_(rocks), fluid_(fluid) {}
+ResolvedRocks::ResolvedRocks(double partly_from, double from, DemSystem& rocks, FluidSystem& fluid)
+    : extent_{partly_from, from}, rocks_(rocks), fluid_(fluid) {}
+
+double ResolvedRocks::core(std::size_t rock) const {
+  const double size = rocks_.rocks().size[rock];
+  if (size >= extent_.from) return 1;
+  const double core = (size - extent_.partly_from) / (extent_.from - extent_.partly_from);
+  return core * size >= least_core * fluid_.spacing() ? core : 0;
+}
 
 void ResolvedRocks::follow_rocks(double dt) {
   const Rocks& all = rocks_.rocks();
   const Domain& domain = rocks_.scene().domain;
   rock_of_.clear();
   for (std::size_t r = 0; r < all.count(); ++r)
-    if (resolves(r)) rock_of_.push_back(r);
+    if (core(r) > 0) rock_of_.push_back(r);
   std::sort(rock_of_.begin(), rock_of_.end(),
             [&](std::size_t a, std::size_t b) { return all.id[a] < all.id[b]; });
   std::vector<Held> now;
@@ -36,7 +46,8 @@ void ResolvedRocks::follow_rocks(double dt) {
   auto known = held_.begin();
   for (const std::size_t r : rock_of_) {
     while (known != held_.end() && known->id < all.id[r]) ++known;
-    Held held{all.id[r], {all.q[r], Vec3::Zero(), all.x[r]}, {all.q[r], Vec3::Zero(), all.x[r]}, {}, {}};
+    Held held{all.id[r],   {all.q[r], Vec3::Zero(), all.x[r]}, {all.q[r], Vec3::Zero(), all.x[r]}, {}, {},
+              Vec3::Zero()};
     held.last = held.twist = {all.v[r], all.w[r], all.x[r]};  // a new one moves from the next step on
     if (known != held_.end() && known->id == held.id) {
       // Through a periodic face it came from the image on this side.
@@ -44,6 +55,7 @@ void ResolvedRocks::follow_rocks(double dt) {
       held.last = known->twist;
       held.last.at += before - known->now.at;
       held.before = known->now;
+      held.force = known->force;
       held.before.at = before;
       held.twist = twist_between(held.before, held.now, dt);
       if (rocks_.shapes()[static_cast<std::size_t>(all.shape[r])].is_sphere())
@@ -52,6 +64,10 @@ void ResolvedRocks::follow_rocks(double dt) {
     now.push_back(held);
   }
   held_ = std::move(now);
+  const auto whole = static_cast<std::uint64_t>(
+      std::count_if(rock_of_.begin(), rock_of_.end(), [&](std::size_t r) { return core(r) == 1; }));
+  extent_.most_whole = std::max(extent_.most_whole, whole);
+  extent_.most_partly = std::max(extent_.most_partly, rock_of_.size() - whole);
 }
 
 void ResolvedRocks::place(double dt, int k, int n) {
@@ -65,9 +81,10 @@ void ResolvedRocks::place(double dt, int k, int n) {
     const Held& held = held_[i];
     const std::size_t r = rock_of_[i];
     FluidBody body;
-    body.semi_axes = rocks_.semi_axes(r);
+    const double part = core(r);
+    body.semi_axes = part * rocks_.semi_axes(r);
     body.blockiness = rocks_.shapes()[static_cast<std::size_t>(all.shape[r])].blockiness;
-    body.reach = all.radius[r];
+    body.reach = part * all.radius[r];
     body.now = part_way(held.before, held.now, held.twist, dt, static_cast<double>(k) / n);
     body.next = part_way(held.before, held.now, held.twist, dt, static_cast<double>(k + 1) / n);
     body.twist = held.twist;
@@ -89,11 +106,19 @@ void ResolvedRocks::take_loads() {
   }
 }
 
-void ResolvedRocks::mean_loads(double dt, std::vector<Vec3>& force, std::vector<Vec3>& torque) const {
+void ResolvedRocks::add_mean_loads(double dt, double tau, std::vector<Vec3>& force,
+                                   std::vector<Vec3>& torque) {
+  const double share = tau > 0 ? -std::expm1(-dt / tau) : 1.0;
   for (std::size_t i = 0; i < loads_.size(); ++i) {
-    force[rock_of_[i]] = loads_[i].impulse / dt;
-    torque[rock_of_[i]] = loads_[i].angular_impulse / dt;
+    held_[i].force += share * (loads_[i].impulse / dt - held_[i].force);
+    force[rock_of_[i]] += loads_[i].impulse / dt;
+    torque[rock_of_[i]] += loads_[i].angular_impulse / dt;
   }
+}
+
+void ResolvedRocks::filtered_force(std::vector<Vec3>& force) const {
+  force.assign(rocks_.rocks().count(), Vec3::Zero());
+  for (std::size_t i = 0; i < held_.size(); ++i) force[rock_of_[i]] = held_[i].force;
 }
 
 std::vector<RemovedPoint> ResolvedRocks::make_room() {
@@ -105,9 +130,11 @@ std::vector<RemovedPoint> ResolvedRocks::make_room() {
   };
   std::vector<Body> inside;
   for (std::size_t r = 0; r < all.count(); ++r) {
-    if (!resolves(r)) continue;
+    const double part = core(r);
+    if (part == 0) continue;
     const RockShape& shape = rocks_.shapes()[static_cast<std::size_t>(all.shape[r])];
-    inside.push_back({all.x[r], rocks_.semi_axes(r), all.q[r].conjugate(), shape.blockiness, all.radius[r]});
+    inside.push_back(
+        {all.x[r], part * rocks_.semi_axes(r), all.q[r].conjugate(), shape.blockiness, part * all.radius[r]});
   }
   if (inside.empty()) return {};
   const Domain& domain = rocks_.scene().domain;
@@ -127,7 +154,7 @@ std::size_t ResolvedRocks::memory_bytes() const {
 void ResolvedRocks::exchange(StateArchive& a) {
   // What follow_rocks asks of the last step.
   std::vector<std::uint64_t> id;
-  std::vector<Vec3> at, v, w, from;
+  std::vector<Vec3> at, v, w, from, force;
   std::vector<Quat> q;
   for (const Held& held : held_) {
     id.push_back(held.id);
@@ -136,6 +163,7 @@ void ResolvedRocks::exchange(StateArchive& a) {
     v.push_back(held.twist.v);
     w.push_back(held.twist.w);
     from.push_back(held.twist.at);
+    force.push_back(held.force);
   }
   a.values("held_id", id);
   a.values("held_at", at);
@@ -143,12 +171,16 @@ void ResolvedRocks::exchange(StateArchive& a) {
   a.values("held_v", v);
   a.values("held_w", w);
   a.values("held_from", from);
+  a.values("held_force", force);
   a.value("resolved_impulse", impulse_);
+  a.value("most_whole", extent_.most_whole);
+  a.value("most_partly", extent_.most_partly);
   held_.resize(id.size());
   for (std::size_t i = 0; i < id.size(); ++i) {
     held_[i].id = id[i];
     held_[i].now = {q[i], Vec3::Zero(), at[i]};
     held_[i].twist = {v[i], w[i], from[i]};
+    held_[i].force = force[i];
   }
 }
 

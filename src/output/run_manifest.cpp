@@ -84,6 +84,13 @@ void fields(V& v, RunManifest::Counts& c) {
   v("wall_triangles", c.wall_triangles);
 }
 template <class V>
+void fields(V& v, RunManifest::Resolved& r) {
+  v("from_m", r.from_m);
+  v("partly_from_m", r.partly_from_m);
+  v("rocks_max", r.rocks_max);
+  v("rocks_partly_max", r.rocks_partly_max);
+}
+template <class V>
 void fields(V& v, RunManifest::Budgets& b) {
   v("rock", b.rock);
   v("water", b.water);
@@ -154,6 +161,7 @@ void fields(V& v, RunManifest& m) {
   v("time", m.time);
   v("parts", m.parts);
   v("counts", m.counts);
+  v("resolved", m.resolved);
   v("budgets", m.budgets);
   // promised keys are there whatever the scene, so an absent overlap is an object of nulls
   v.nulls_if_absent("overlap", m.overlap);

@@ -71,6 +71,13 @@ struct RunManifest {
     std::int64_t wall_triangles = 0;
   } counts;
 
+  /// Rocks that water meets with their own shape, by size; most of them at once.
+  struct Resolved {
+    double from_m = 0, partly_from_m = 0;
+    std::int64_t rocks_max = 0, rocks_partly_max = 0;
+  };
+  std::optional<Resolved> resolved;
+
   struct Budgets {
     std::optional<BudgetEntry> rock, water;
     std::optional<BudgetEntry> fines;  ///< the part of `water` that is fines

@@ -268,6 +268,11 @@ PageSection provenance_section(const RunResults& run) {
            count(static_cast<double>(*n)) + (most ? ", at most " + count(static_cast<double>(*most)) : ""));
   };
   sizes("rocks", m.counts.rocks, m.counts.rocks_max);
+  if (m.resolved)
+    line("rocks that water meets with their own shape",
+         fmt::format("whole from {:.3g} mm on, at most {} at once; in part from {:.3g} mm, {}",
+                     1e3 * m.resolved->from_m, m.resolved->rocks_max, 1e3 * m.resolved->partly_from_m,
+                     m.resolved->rocks_partly_max));
   sizes("water points", m.counts.water_points, m.counts.water_points_max);
   line("wall triangles", count(static_cast<double>(m.counts.wall_triangles)));
   body +=

@@ -10,6 +10,10 @@ namespace sluice {
 
 void CouplingStream::keys(Schema& s) {
   s.number("size_cells", size_cells, {.above = 0, .at_most = 16, .doc = "size of the rock over the spacing"});
+  s.number("resolve_from", resolve_from,
+           {.at_least = 3, .doc = "of the coupling: from this size over the spacing on it is resolved"});
+  s.number("sizes", sizes,
+           {.above = 0, .doc = "of the rock that the stream passes; the second half is read"});
 }
 
 Measured CouplingStream::run(const CsvTable& reference) const {
@@ -22,6 +26,7 @@ Measured CouplingStream::run(const CsvTable& reference) const {
     ImmersedSetup setup;
     setup.rock_density = 1e7;  // held: drag does not move it
     setup.rock_size = d;
+    setup.coupling.resolve_from = resolve_from;
     setup.water.config.spacing = h;
     setup.water.config.fastest_bulk_speed = stream[k];
     double cells = 16;  // levels of the coupling grid are two, four, ... cells
@@ -35,12 +40,13 @@ Measured CouplingStream::run(const CsvTable& reference) const {
     fill.velocity = [&](const Vec3&) { return Vec3(stream[k], 0, 0); };
     scene.fluid.fill(fill);
     scene.rocks->add({.x = width * Vec3(0.43, 0.52, 0.57), .size = d});
-    const double passes = d / stream[k];
+    scene.coupling->make_room();
+    const double passes = sizes * d / stream[k];
     double sum = 0, looks = 0;
     while (scene.fluid.t < passes) {
       scene.step();
       if (scene.fluid.t < 0.5 * passes) continue;
-      sum += scene.coupling->drag_force()[0].x();
+      sum += scene.coupling->force()[0].x();
       looks += 1;
     }
     out.particle_steps += scene.fluid.point_steps;

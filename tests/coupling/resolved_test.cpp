@@ -3,36 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
+#include <functional>
 
 #include "base/memory_archive.h"
 #include "base/parallel.h"
-#include "coupling/pool.h"
+#include "coupling/bath.h"
 
 namespace sluice {
 namespace {
-
-constexpr double h = 0.02;
-
-CouplingConfig resolving() {
-  CouplingConfig config;
-  config.resolve_from = 3;
-  return config;
-}
-
-double sphere_volume(double d) {
-  return std::numbers::pi / 6 * d * d * d;
-}
-
-/// A pool that is `cells` wide and deep, with one rock in it, whose water has left its place.
-struct Bath : Pool {
-  Bath(double cells, const PoolRocks& of, NewRock rock) : Pool(cells * h, cells * h, h, of, resolving()) {
-    rock.size = of.size;
-    rocks->add(rock);
-    for (const RemovedPoint& p : coupling->make_room()) displaced += p.mass / water->model().density;
-  }
-  double displaced = 0;  ///< [m3]
-};
 
 struct Mean {
   double value = 0, rms = 0;
@@ -51,6 +29,12 @@ Mean lift(Bath& bath, double volume, double from, double until) {
   }
   const double mean = sum / count;
   return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean))};
+}
+
+CouplingConfig partly(double from) {
+  CouplingConfig config;
+  config.resolve_from = from;
+  return config;
 }
 
 TEST(ResolvedRock, LosesTheWeightOfTheWaterItDisplaces) {
@@ -161,9 +145,8 @@ void exchange(Pool& pool, MemoryArchive& archive) {
   archive.leave();
 }
 
-TEST(ResolvedRock, MovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
-  const double d = 4 * h;
-  const auto make = [&] { return Bath(12, {.size = d}, {.x = {0.12, 0.123, 0.15}, .w = {5, 0, 20}}); };
+/// The state after 60 steps, on one thread, on three and again from a state saved after 40.
+void moves_alike(const std::function<Bath()>& make) {
   const auto run = [](Pool& pool, int steps) {
     for (int i = 0; i < steps; ++i) pool.step(Pool::Rocks::falling);
   };
@@ -185,6 +168,68 @@ TEST(ResolvedRock, MovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
   run(again, 20);
   EXPECT_EQ(hash_of(again), hash_of(one));
   set_thread_count(usual);
+}
+
+TEST(ResolvedRock, MovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
+  moves_alike([] { return Bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 0.15}, .w = {5, 0, 20}}); });
+}
+
+TEST(PartlyResolvedRock, MovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
+  moves_alike([] {
+    return Bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 0.15}, .w = {5, 0, 20}}, partly(5));
+  });
+}
+
+// Cores of 1.5 and 3 cells.
+TEST(PartlyResolvedRock, LosesTheWeightOfTheWaterItDisplaces) {
+  const double d = 4 * h;
+  for (const double from : {6.4, 4.7}) {
+    Bath bath(12, {.size = d}, {.x = {0.12, 0.123, 0.1241}}, partly(from));
+    EXPECT_LT(bath.displaced, 0.5 * sphere_volume(d)) << "of the core alone";
+    const Mean f = lift(bath, sphere_volume(d), 1.0, 1.3);  // waves of the start are over
+    EXPECT_NEAR(f.value, 1, 0.02) << from;
+    EXPECT_LT(f.rms, 0.05) << from;
+  }
+}
+
+TEST(PartlyResolvedRock, HalfAsDenseAsWaterFloatsToItsMiddle) {
+  const double d = 4 * h, width = 11 * h;
+  Bath bath(11, {.size = d, .density = 500}, {.x = {0.11, 0.113, 0.2}}, partly(5));
+  double height = 0, speed = 0;
+  int count = 0;
+  while (bath.t < 1.1) {
+    bath.step(Pool::Rocks::falling);
+    if (bath.t < 0.7) continue;
+    height += bath.rocks->rocks().x[0].z();
+    speed = std::max(speed, bath.rocks->rocks().v[0].norm());
+    ++count;
+  }
+  const double water = width * width * width - bath.displaced;
+  const double level = (water + 0.5 * sphere_volume(d)) / (width * width);
+  EXPECT_NEAR(height / count, level, 0.08 * d);
+  EXPECT_LT(speed, 0.1) << "it has come to rest";
+}
+
+TEST(PartlyResolvedRock, GivesTheWaterWhatItTakes) {
+  Bath bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 0.17}}, partly(5));
+  while (bath.t < 0.15) bath.step(Pool::Rocks::falling);
+  EXPECT_LT((bath.coupling->impulse_on_fluid() + bath.coupling->impulse_on_rocks()).norm(),
+            1e-12 * bath.coupling->impulse_on_rocks().norm());
+  EXPECT_GT(bath.coupling->impulse_on_rocks().z(), 0);
+  EXPECT_NEAR((bath.rocks->impulse_from_fluid() - bath.coupling->impulse_on_rocks()).norm(), 0, 1e-12);
+}
+
+// Of all that rocks of four cells do, only resolve_from is told.
+TEST(PartlyResolvedRock, IsResolvedWholeOrNotAtAllAtTheEndsOfTheBand) {
+  const auto displaced = [](CouplingConfig config) {
+    return Bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 0.1241}}, config).displaced;
+  };
+  EXPECT_EQ(displaced(partly(12)), 0);
+  EXPECT_EQ(displaced(partly(12.1)), 0) << "it is below a third of resolve_from";
+  EXPECT_NEAR(displaced(partly(4)), sphere_volume(4 * h), 0.1 * sphere_volume(4 * h));
+  CouplingConfig abrupt = partly(4.1);
+  abrupt.resolve_partly_from = 4.1;
+  EXPECT_EQ(displaced(abrupt), 0);
 }
 
 }  // namespace

@@ -34,6 +34,7 @@ RunManifest full_manifest() {
   m.budgets.momentum_residual_N_s = {1e-9, -2e-9, 0};
   m.budgets.energy = {{"rock_kinetic_J", 5}};
   m.overlap = RunManifest::Overlap{0.4, 1.5, 3};
+  m.resolved = RunManifest::Resolved{0.1, 0.03, 2, 5};
   m.memory = {1000, 600, 300};
   m.stages = {{"rocks.substeps", 12.5, 1000}};
   m.rates = {1e6, 2e5};

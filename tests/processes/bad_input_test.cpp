@@ -410,6 +410,10 @@ TEST_F(BadInput, MayResolveRocksThatTheWaterDoesNotFeelOrThatAreNoCellsLarge) {
   expect_refused(with(old, line + "mode: one_way, resolve_from: 4}"), 25, "resolve_from", "'one_way'");
   expect_refused(with(old, line + "resolve_from: 1}"), 25, "resolve_from", "out of range");
   EXPECT_TRUE(problems_of(with(old, line + "resolve_from: 4}")).empty());
+  expect_refused(with(old, line + "resolve_from: 4, resolve_partly_from: 5}"), 25, "resolve_partly_from",
+                 "above resolve_from");
+  expect_refused(with(old, line + "resolve_partly_from: 5}"), 25, "resolve_partly_from", "resolve_from");
+  EXPECT_TRUE(problems_of(with(old, line + "resolve_from: 4, resolve_partly_from: 2}")).empty());
 }
 
 }  // namespace
