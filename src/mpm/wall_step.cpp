@@ -10,6 +10,9 @@ namespace sluice {
 namespace {
 /// Fill over which a node turns from spray (own velocities) to bulk (shared velocity).
 constexpr double spray_below = 0.1, bulk_above = 0.3;
+/// Fill over which water under pressure ceases to be stopped by walls at once: it has the time in which
+/// points follow the grid, for its pressure stops it too.
+constexpr double eased_above = 0.6, eased_wholly = 0.9;
 
 /// Share of the wall's area that a node at s cells from it stands for, so that the nodes' and their hidden
 /// mirror's impulses add up to the stress on the area. Films thinner than a cell spread over the nodes by
@@ -179,6 +182,11 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
   const double density = water.volume > 0 ? m / water.volume : config_.fluid.density;
   const bool no_slip = config_.wall_slip == WallSlip::no_slip;
   const double rest_density = density * (1 + static_cast<double>(node[dilation]));
+  const double full =
+      pressed ? std::clamp((static_cast<double>(node[fill]) - eased_above) / (eased_wholly - eased_above),
+                           0.0, 1.0)
+              : 0.0;
+  const double at_once = 1 - full * (1 - static_cast<double>(step_.relax_velocity));
   Vec3 v = vector_at(node, velocity) + vector_at(node, change);
   const Vec3 before = v;
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -186,7 +194,7 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
     const Vec3 contact = at + plane.distance * plane.normal;
     const Vec3 surface = poses_.surface_velocity(plane.wall, contact);
     const double s = plane.distance / h;
-    const double hold = water.chi * 2 * spline_beyond(s);
+    const double hold = at_once * water.chi * 2 * spline_beyond(s);
     const double vn = (v - poses_.velocity(plane.wall, contact)).dot(plane.normal);
     const double at_wall = vn + plane.distance * plane.normal.dot(water.strain * plane.normal);
     Vec3 held = Vec3::Zero(), change_here = Vec3::Zero();
