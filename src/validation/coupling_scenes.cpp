@@ -9,7 +9,7 @@ ImmersedScene::ImmersedScene(const ImmersedSetup& setup, std::vector<Wall> walls
   DemScene scene;
   scene.materials.all = {{"rock", setup.rock_density}};
   scene.materials.pairs = {setup.pair};
-  scene.shapes = {make_sphere()};
+  scene.shapes = {setup.rock_shape};
   scene.domain = setup.water.domain;
   scene.gravity = setup.rock_gravity.value_or(setup.water.gravity);
   scene.smallest_size = scene.largest_size = setup.rock_size;
@@ -26,10 +26,9 @@ void ImmersedScene::step() {
   if (coupling->resolves()) coupling->place_resolved(dt, 0, 1);
   coupling->solids_to_grid();
   fluid.step([&] { coupling->drag(dt); });
-  for (std::size_t i = 0; i < rocks->rocks().count(); ++i)
-    exchanged += dt * (coupling->drag_force()[i] + coupling->buoyancy_force()[i]).norm();
   coupling->fluid_to_grid(dt);
   if (coupling->resolves()) coupling->take_resolved(dt, 0, 1);
+  for (std::size_t i = 0; i < rocks->rocks().count(); ++i) exchanged += dt * coupling->force()[i].norm();
   const int n = static_cast<int>(std::ceil(dt / rocks->step_size()));
   for (int k = 0; k < n; ++k) rocks->step(from + k * dt / n, dt / n);
 }

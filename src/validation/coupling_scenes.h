@@ -11,6 +11,7 @@ struct ImmersedSetup {
   CouplingConfig coupling;
   double rock_density = 2700;  ///< [kg/m3]
   double rock_size = 0.01;     ///< [m]
+  RockShape rock_shape = make_sphere();
   PairProperties pair{0.5, 0.5, 0};
   std::optional<Vec3> rock_gravity;  ///< instead of the water's [m/s2]
 };

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "processes/input_node.h"
+
 namespace sluice {
 
 namespace {
@@ -62,6 +64,19 @@ std::vector<double> reference_numbers(const CsvTable& reference, const char* col
 std::vector<std::string> reference_texts(const CsvTable& reference, const char* column) {
   need_column(reference, column);
   return reference.texts(column);
+}
+
+std::vector<std::string> reference_words(const CsvTable& reference, const char* column,
+                                         const std::vector<std::string>& known) {
+  const std::vector<std::string> words = reference_texts(reference, column);
+  for (const std::string& word : words)
+    if (std::find(known.begin(), known.end(), word) == known.end())
+      throw InputError({{"reference table", 0, 0},
+                        column,
+                        "is '" + word + "'",
+                        fmt::format("this measure knows {}", fmt::join(known, ", ")),
+                        suggest_word(word, known)});
+  return words;
 }
 
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at) {

@@ -47,6 +47,9 @@ double error_of(const std::vector<Compared>& values, ErrorNorm norm);
 /// Column of a case's reference table. @throws InputError if it is not there
 std::vector<double> reference_numbers(const CsvTable& reference, const char* column);
 std::vector<std::string> reference_texts(const CsvTable& reference, const char* column);
+/// The same, of words that the measure knows. @throws InputError for another
+std::vector<std::string> reference_words(const CsvTable& reference, const char* column,
+                                         const std::vector<std::string>& known);
 
 /// Straight line between neighbours; ascending x. @pre x is not empty
 double interpolated(const std::vector<double>& x, const std::vector<double>& y, double at);

@@ -3,8 +3,10 @@
 #include "validation/analysis_mixing.h"
 #include "validation/analysis_residence.h"
 #include "validation/analysis_sizes.h"
+#include "validation/coupling_added_mass.h"
 #include "validation/coupling_bed.h"
 #include "validation/coupling_dam.h"
+#include "validation/coupling_heave.h"
 #include "validation/coupling_hindered.h"
 #include "validation/coupling_settling.h"
 #include "validation/coupling_sphere.h"
@@ -75,7 +77,9 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"coupling_bed", "point", made<CouplingBed>},
       {"coupling_sphere", "point", made<CouplingSphere>},
       {"coupling_stream", "point", made<CouplingStream>},
+      {"coupling_added_mass", "point", made<CouplingAddedMass>},
       {"coupling_dam", "point", made<CouplingDam>},
+      {"coupling_heave", "point", made<CouplingHeave>},
       {"coupling_third_law", "point", made<CouplingThirdLaw>},
       {"emitter_flux", "sample", made<EmitterFlux>},
       {"analysis_mixing", "sample", made<AnalysisMixing>},

@@ -149,7 +149,8 @@ Measured WaterWaveDecay::run(const CsvTable& reference) const {
   s.cells = cells;
   s.amplitude = amplitude;
   s.kinematic_viscosity = kinematic_viscosity;
-  const std::string quantity = reference_texts(reference, "quantity").front();
+  const std::string quantity =
+      reference_words(reference, "quantity", {"rate", "effective viscosity", "rise"}).front();
   const double value = reference_numbers(reference, "value").front();
   const double scale = reference_numbers(reference, "scale").front();
   Measured out;

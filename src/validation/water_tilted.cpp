@@ -45,7 +45,7 @@ void WaterTilted::keys(Schema& s) {
 }
 
 Measured WaterTilted::run(const CsvTable& reference) const {
-  const std::vector<std::string> what = reference_texts(reference, "what");
+  const std::vector<std::string> what = reference_words(reference, "what", {"along", "up", "work"});
   const std::vector<double> expected = reference_numbers(reference, "value");
   const WallMotion motion = tilting(angle, seconds);
   const double h = length / cells, width = 4 * h;

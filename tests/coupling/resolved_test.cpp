@@ -186,7 +186,7 @@ TEST(PartlyResolvedRock, LosesTheWeightOfTheWaterItDisplaces) {
   for (const double from : {6.4, 4.7}) {
     Bath bath(12, {.size = d}, {.x = {0.12, 0.123, 0.1241}}, partly(from));
     EXPECT_LT(bath.displaced, 0.5 * sphere_volume(d)) << "of the core alone";
-    const Mean f = lift(bath, sphere_volume(d), 1.0, 1.3);  // waves of the start are over
+    const Mean f = lift(bath, sphere_volume(d), 1.2, 1.5);  // waves of the start are over
     EXPECT_NEAR(f.value, 1, 0.02) << from;
     EXPECT_LT(f.rms, 0.05) << from;
   }
