@@ -178,7 +178,7 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
   using namespace node_lane;
   const double h = config_.spacing;
   const double m = static_cast<double>(node[mass]);
-  const bool pressed = node[dilation] < 0;
+  const bool pressed = node[dilation] < 0 || config_.keep_tension;
   const double density = water.volume > 0 ? m / water.volume : config_.fluid.density;
   const bool no_slip = config_.wall_slip == WallSlip::no_slip;
   const double rest_density = density * (1 + static_cast<double>(node[dilation]));
