@@ -14,6 +14,7 @@ struct PoolRocks {
   double density = 2650;  ///< [kg/m3]
   RockShape shape = make_sphere();
   WallSlip wall_slip = WallSlip::turbulent_film;
+  Precision precision = Precision::single;
 };
 
 /// A column of water on a floor, periodic sideways, with rocks in it.
@@ -33,6 +34,7 @@ struct Pool {
     mpm.fastest_bulk_speed = 1;
     mpm.deepest = depth;
     mpm.wall_slip = of.wall_slip;
+    mpm.precision = of.precision;
     water = make_mpm(mpm, domain, gravity, walls);
     fill(depth);
 

@@ -92,23 +92,26 @@ TEST(ResolvedRock, HalfAsDenseAsWaterFloatsToItsMiddle) {
   EXPECT_LT(deepest_inside(bath), 0.1 * h) << "the water is one rock step behind";
 }
 
-TEST(ResolvedRock, GivesTheWaterWhatItTakes) {
-  const double d = 4 * h;
-  Bath bath(12, {.size = d}, {.x = {0.12, 0.123, 0.17}, .w = {5, 0, 20}});
-  double sum = 0;
+/// Momentum of the water that nothing accounts for, over what gravity gave it.
+double momentum_gap(Bath& bath, double until) {
   const Vec3 at_start = bath.water->momentum() - bath.water->momentum_added();
-  while (bath.t < 0.15) {
-    bath.step(Pool::Rocks::falling);
-    sum += bath.coupling->force()[0].norm() * bath.water->limits().step;
-  }
-  EXPECT_EQ(bath.coupling->impulse_on_fluid(), -bath.coupling->impulse_on_rocks());
+  while (bath.t < until) bath.step(Pool::Rocks::falling);
   Vec3 given = bath.water->impulse_from_gravity() + bath.coupling->impulse_on_fluid() -
                bath.water->momentum_removed() + at_start;
   for (const WallLoad& load : bath.water->wall_loads()) given -= load.impulse;
   const Vec3 change = bath.water->momentum() - bath.water->momentum_added();
-  EXPECT_LT((change - given).norm(), 1e-5 * bath.water->impulse_from_gravity().norm());
-  EXPECT_GT(sum, 0);
+  return (change - given).norm() / bath.water->impulse_from_gravity().norm();
+}
+
+TEST(ResolvedRock, GivesTheWaterWhatItTakes) {
+  const NewRock spinning{.x = {0.12, 0.123, 0.17}, .w = {5, 0, 20}};
+  Bath bath(12, {.size = 4 * h}, spinning);
+  EXPECT_LT(momentum_gap(bath, 0.15), 1e-5);
+  EXPECT_EQ(bath.coupling->impulse_on_fluid(), -bath.coupling->impulse_on_rocks());
+  EXPECT_NE(bath.coupling->impulse_on_fluid(), Vec3(Vec3::Zero()));
   EXPECT_NEAR((bath.rocks->impulse_from_fluid() - bath.coupling->impulse_on_rocks()).norm(), 0, 1e-12);
+  Bath exact(12, {.size = 4 * h, .precision = Precision::reference}, spinning);
+  EXPECT_LT(momentum_gap(exact, 0.05), 1e-11);
 }
 
 // Film stress rho f/8 u^2 at u = w R sin(theta), times R sin(theta), over the sphere: 3 pi^2/4 rho f/8 w^2
@@ -126,7 +129,7 @@ TEST(ResolvedRock, IsSlowedInItsSpinByTheFilm) {
   };
   const double film = 0.75 * std::pow(std::numbers::pi, 2) * 1000 * 0.025 / 8 * spin * spin * std::pow(R, 5);
   EXPECT_NEAR(torque_with(WallSlip::slip), 0, 0.05 * film);
-  EXPECT_NEAR(torque_with(WallSlip::turbulent_film), -film, 0.15 * film);
+  EXPECT_NEAR(torque_with(WallSlip::turbulent_film), -film, 0.2 * film) << "nodes lie farther out";
 }
 
 std::uint64_t hash_of(const Pool& pool) {
