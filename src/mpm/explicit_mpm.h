@@ -18,7 +18,6 @@
 /// nearly empty cells b = 0: the point keeps its velocity, feels gravity and drag, has no pressure, and
 /// shares its momentum with the water that it meets when the cells are full there.
 
-#include <algorithm>
 #include <memory>
 
 #include "mpm/mpm_system.h"
@@ -32,17 +31,6 @@ namespace sluice {
 /// @param fastest_wall  that moves [m/s]
 FluidStepLimits step_limits(const MpmConfig& config, const Vec3& gravity, double largest_kinematic_viscosity,
                             double fastest_wall);
-
-/// Where walls and the grid have time to stop water: in bulk, where its pressure does so, too.
-struct WallEase {
-  /// Share of a fill of the nodes that counts as bulk.
-  static double full(double fill, bool pressed) {
-    constexpr double above = 0.6, wholly = 0.9;
-    return pressed ? std::clamp((fill - above) / (wholly - above), 0.0, 1.0) : 0.0;
-  }
-};
-/// Share of the way to the grid's velocity, across the surface of a body, that points beside it do not take.
-inline constexpr double held_across = 0.9;
 
 template <class Real>
 class ExplicitMpm final : public FluidSystem {
@@ -109,9 +97,6 @@ class ExplicitMpm final : public FluidSystem {
     Node node[BlockLayout::tile_nodes];
     Real void_fraction[BlockLayout::tile_nodes];
     Real least_fill[BlockLayout::nodes];  ///< over the 27 nodes of each cell
-    /// Where there are bodies: a normal of their surface beside the node, times the root of the share of what
-    /// passes along it between points and node that is held back; zero elsewhere.
-    typename Node::Half across[BlockLayout::tile_nodes];
   };
   /// What one block's grid_to_points found.
   struct BlockReport {
@@ -140,7 +125,6 @@ class ExplicitMpm final : public FluidSystem {
   struct Gathered {
     Vector change;     ///< of v [m/s]
     Vector velocity;   ///< b v_old [m/s]
-    Vector held_back;  ///< of the way from the point's velocity to it [m/s]
     Vector pressure;   ///< change of v by pressure alone [m/s]
     Vector centre;     ///< mean x_p - x_i there [cells]
     Vector moment[3];  ///< of change + velocity, by columns like C [m/s]
@@ -197,9 +181,6 @@ class ExplicitMpm final : public FluidSystem {
             BlockReport& report) const;
   void gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, const NodeTile& tile,
                         Gathered& g, WallImpulses& impulses) const;
-  void note_across(const Node& node, std::span<const WallPlane> planes, typename Node::Half& across) const;
-  void hold_back_across(const Point& p, int local, std::uint32_t hidden, const NodeTile& tile,
-                        Gathered& g) const;
   void gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   void gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   Real gather_void_fraction(const Point& p, int local, const NodeTile& tile) const;

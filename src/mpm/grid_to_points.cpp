@@ -36,8 +36,6 @@ template <class Real>
 void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const {
   for (Node& n : tile.node) n.clear();
   if (has_void_) std::fill_n(tile.void_fraction, BlockLayout::tile_nodes, Real(1));
-  const bool bodies = !poses_.round().empty();
-  if (bodies) std::fill_n(tile.across, BlockLayout::tile_nodes, typename Node::Half{});
   visit_tile(block, [&](std::int32_t slot, int from, int to, int length) {
     const Node* nodes = grid_.nodes(slot);
     const Real* voids = grid_.void_fraction(slot);
@@ -45,8 +43,6 @@ void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const
       for (int n = 0; n < BlockLayout::edge; ++n) tile.node[to + n] = nodes[from + n];
     else
       for (int n = 0; n < length; ++n) tile.node[to + n] = nodes[from + n];
-    if (const auto* across = bodies ? grid_.strain(slot) : nullptr)
-      for (int n = 0; n < length; ++n) tile.across[to + n] = across[from + n];
     if (!has_void_) return;
     for (int n = 0; n < length; ++n) {
       // Rocks push on the water only where both together fill the space.
@@ -74,7 +70,6 @@ void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, 
   typename Node::Half moment[3];
   spline_sums<6, 36>(corner, p.x, sum, moment);
   g.velocity = sum.quad(0);
-  g.held_back = Vector{};
   g.change = sum.quad(1);
   g.centre = sum.quad(2);
   g.pressure = sum.quad(3);
@@ -142,7 +137,7 @@ auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
   const Vector to_grid = g.velocity - own;
   const Vector v = old + g.change;
   Vector moved = step_.cells_per_speed * (v + to_grid);
-  p.v = with_fourth(v + step_.relax_velocity * (to_grid - g.held_back), old[3]);
+  p.v = with_fourth(v + step_.relax_velocity * to_grid, old[3]);
   Vector C[3];
   for (int c = 0; c < 3; ++c) C[c] = step_.per_h * (g.moment[c] - bulk[c] * old);
   if (!g.knows_all) {

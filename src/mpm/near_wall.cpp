@@ -85,10 +85,8 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   const WallField& field = *record.field;
   Surroundings around{.field = field, .h = config_.spacing, .x = position(p.x, cell_key)};
   field.visibility(record.stencil, layout_.cell_of(cell_key) - Vec3i::Ones(), around.x, around.seen);
-  const bool bodies = !poses_.round().empty() && stencil >= first_moving;
   if (around.seen.hidden == 0) {
     gather(p, local, tile, g);
-    if (bodies) hold_back_across(p, local, 0, tile, g);
     return;
   }
 
@@ -140,8 +138,6 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   g.least_fill = weight > 0 ? least : Real(0);
   g.change = sum.quad(1);
   g.velocity = sum.quad(0);
-  g.held_back = Vector{};
-  if (bodies) hold_back_across(p, local, around.seen.hidden, tile, g);
   g.pressure = sum.quad(3) * per_weight;
   g.centre = sum.quad(2) * per_weight;
   const double mean_bulk = static_cast<double>(g.bulk * per_weight);
@@ -166,9 +162,6 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) C(r, c) = static_cast<double>(p.C[c][r]);
   const double share = static_cast<double>(step_.relax_velocity) * mean_bulk;
-  const double slower = bodies ? held_across * WallEase::full(static_cast<double>(g.fill),
-                                                              p.dilation() < 0 || config_.keep_tension)
-                               : 0.0;
   for (const HiddenNodes& hidden : groups.all()) {
     Vec3 at = Vec3::Zero();                // mirrored node, constant
     Mat3 at_slope = h * Mat3::Identity();  // and per d
@@ -206,42 +199,8 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     }
     g.bulk += static_cast<Real>(hidden.w * mean_bulk);
     const double m = static_cast<double>(p.mass());
-    Vec3 pull = ghost - v;
-    Mat3 pull_slope = ghost_slope - h * C;
-    if (slower > 0) {
-      Mat3 kept = Mat3::Identity();
-      for (int q = 0; q < around.plane_count; ++q) {
-        const WallPlane& plane = around.planes[q];
-        if ((hidden.mirrors >> q & 1) && poses_.free_body(plane.wall) >= 0)
-          kept -= slower * plane.normal * (plane.normal.transpose() * kept);
-      }
-      const Vec3 all = hidden.w * pull + pull_slope * hidden.d();
-      const Vec3 held = mean_bulk * (all - kept * all);
-      for (int r = 0; r < 3; ++r) g.held_back[r] += static_cast<Real>(held[r]);
-      pull = kept * pull;
-      pull_slope = kept * pull_slope;
-    }
-    share_out(around, hidden, -m * (ghost_change + share * pull), -m * share * pull_slope, impulses);
-  }
-}
-
-/// Across the surface of a body points keep most of their own velocity. It bends: the speed across it is not
-/// even to second order, nor is its mirror image, and pulled to the mean of both the water would be braked as
-/// a thick liquid. The share is a node's, the same for all its points, so that no momentum is lost.
-template <class Real>
-void ExplicitMpm<Real>::hold_back_across(const Point& p, int local, std::uint32_t hidden,
-                                         const NodeTile& tile, Gathered& g) const {
-  const int corner = (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
-  const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
-  for (int n = 0; n < 27; ++n) {
-    const int i = n % 3, j = n / 3 % 3, k = n / 9, at = corner + i + 6 * j + 36 * k;
-    const auto& across = tile.across[at];
-    const Vector root = {across[0], across[1], across[2], 0};
-    if ((hidden >> n & 1) != 0 || !(dot3(root, root) > 0)) continue;
-    const Node& node = tile.node[at];
-    const Vector own = p.v + step_.h * (x.d[i] * p.C[0] + y.d[j] * p.C[1] + z.d[k] * p.C[2]);
-    const Vector gap = node.quad(0) - node[node_lane::mass] * own;
-    g.held_back += x.w[i] * y.w[j] * z.w[k] * dot3(root, gap) * root;
+    share_out(around, hidden, -m * (ghost_change + share * (ghost - v)), -m * share * (ghost_slope - h * C),
+              impulses);
   }
 }
 

@@ -74,10 +74,6 @@ class NodeBlocks {
     const std::int32_t n = strain_slot_[static_cast<std::size_t>(slot)];
     return n < 0 ? nullptr : &strain_[static_cast<std::size_t>(n) * BlockLayout::nodes];
   }
-  const typename Lanes<Real>::Half* strain(std::int32_t slot) const {
-    const std::int32_t n = strain_slot_[static_cast<std::size_t>(slot)];
-    return n < 0 ? nullptr : &strain_[static_cast<std::size_t>(n) * BlockLayout::nodes];
-  }
   /// The slot shall hold it from the next hold_strains() on, for whatever block.
   void want_strain(std::int32_t slot) {
     std::int32_t& n = strain_slot_[static_cast<std::size_t>(slot)];

@@ -10,9 +10,9 @@ namespace sluice {
 namespace {
 /// Fill over which a node turns from spray (own velocities) to bulk (shared velocity).
 constexpr double spray_below = 0.1, bulk_above = 0.3;
-/// From the surface of a body, where points are held back across it [cells]: no farther than all points that
-/// know the node know the body.
-constexpr double across_within = 0.85, across_wholly = 0.5;
+/// Fill over which water under pressure ceases to be stopped by walls at once: it has the time in which
+/// points follow the grid, for its pressure stops it too.
+constexpr double eased_above = 0.6, eased_wholly = 0.9;
 
 /// Share of the wall's area that a node at s cells from it stands for, so that the nodes' and their hidden
 /// mirror's impulses add up to the stress on the area. Films thinner than a cell spread over the nodes by
@@ -93,7 +93,6 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
   const Real gravity_change[3] = {static_cast<Real>(step_.dt * gravity_.x()),
                                   static_cast<Real>(step_.dt * gravity_.y()),
                                   static_cast<Real>(step_.dt * gravity_.z())};
-  const bool bodies = !poses_.round().empty();
   Node* nodes = grid_.nodes(slot);
   for (int n = 0; n < BlockLayout::nodes; ++n) {
     Node& node = nodes[n];
@@ -128,7 +127,6 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
     for (int r = 0; r < 3; ++r)
       node[gradient + r] = node[change + r] - gravity_change[r] - static_cast<Real>(pushed[r]);
     if (!planes.empty()) hold_at_walls(node, water, cut_off, planes, at, impulses);
-    if (auto* across = bodies ? grid_.strain(slot) : nullptr) note_across(node, planes, across[n]);
     const Real bulk = std::clamp((node[fill] - spray) * ramp, Real(0), Real(1));
     for (int r = 0; r < 3; ++r) node[velocity + r] *= bulk;
     node[mass] = bulk;
@@ -184,9 +182,13 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
   const double density = water.volume > 0 ? m / water.volume : config_.fluid.density;
   const bool no_slip = config_.wall_slip == WallSlip::no_slip;
   const double rest_density = density * (1 + static_cast<double>(node[dilation]));
-  // Water in bulk has the time in which points follow the grid, for its pressure stops it too.
-  const double full = WallEase::full(static_cast<double>(node[fill]), pressed);
-  const double at_once = 1 - full * (1 - static_cast<double>(step_.relax_velocity));
+  const double full =
+      pressed ? std::clamp((static_cast<double>(node[fill]) - eased_above) / (eased_wholly - eased_above),
+                           0.0, 1.0)
+              : 0.0;
+  // In corners and gaps, and beside bodies that water pushes, it must stop at once.
+  const bool alone = planes.size() == 1 && poses_.free_body(planes[0].wall) < 0;
+  const double in_step = alone ? 1 - full * (1 - static_cast<double>(step_.relax_velocity)) : 1.0;
   Vec3 v = vector_at(node, velocity) + vector_at(node, change);
   const Vec3 before = v;
   for (std::size_t k = 0; k < planes.size(); ++k) {
@@ -194,7 +196,7 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
     const Vec3 contact = at + plane.distance * plane.normal;
     const Vec3 surface = poses_.surface_velocity(plane.wall, contact);
     const double s = plane.distance / h;
-    const double hold = at_once * water.chi * 2 * spline_beyond(s);
+    const double hold = in_step * water.chi * 2 * spline_beyond(s);
     const double vn = (v - poses_.velocity(plane.wall, contact)).dot(plane.normal);
     const double at_wall = vn + plane.distance * plane.normal.dot(water.strain * plane.normal);
     Vec3 held = Vec3::Zero(), change_here = Vec3::Zero();
@@ -228,21 +230,6 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
     v += change_here;
   }
   add_to(node, change, v - before);
-}
-
-/// Leaves for grid_to_points where and how much points are held back across the surface of a body.
-template <class Real>
-void ExplicitMpm<Real>::note_across(const Node& node, std::span<const WallPlane> planes,
-                                    typename Node::Half& across) const {
-  across = typename Node::Half{};
-  if (planes.empty() || poses_.free_body(planes[0].wall) < 0) return;
-  using namespace node_lane;
-  const double near = std::clamp(
-      (across_within - planes[0].distance / config_.spacing) / (across_within - across_wholly), 0.0, 1.0);
-  const bool pressed = node[dilation] < 0 || config_.keep_tension;
-  const double root =
-      std::sqrt(held_across * near * WallEase::full(static_cast<double>(node[fill]), pressed));
-  for (int r = 0; r < 3; ++r) across[r] = static_cast<Real>(root * planes[0].normal[r]);
 }
 
 template void ExplicitMpm<float>::walls(double);
