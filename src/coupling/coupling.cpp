@@ -9,6 +9,7 @@
 #include "coupling/coupling_grid.h"
 #include "coupling/cross_section.h"
 #include "coupling/resolved_rocks.h"
+#include "coupling/turning.h"
 #include "coupling/wetting.h"
 
 namespace sluice {
@@ -27,6 +28,13 @@ struct RockOnGrid {
   double wetted = 0;
   double take_up = 0;    ///< b of the header [kg]
   double displaced = 0;  ///< wetted volume [m3]
+};
+
+/// What drag and torque on a rock share.
+struct WaterAround {
+  double density = 0, viscosity = 0;
+  Vec3 direction = Vec3::Zero();  ///< of the water past the rock, unit vector
+  double share = 0;               ///< of the law that acts
 };
 
 /// Size of the largest rock that has to do with the coupling grid [m].
@@ -58,6 +66,7 @@ struct Coupling::Implementation {
     }
     for (const RockShape& shape : r.shapes()) {
       if (c.drag == DragModel::hoelzer_sommerfeld) cross_sections.emplace_back(shape);
+      if (c.torque != CouplingTorque::none) turning.emplace_back(shape);
       diameter_per_size.push_back(std::cbrt(6 / std::numbers::pi * shape.volume));
     }
   }
@@ -79,6 +88,7 @@ struct Coupling::Implementation {
     return config.filter_time_factor * fluid.spacing() / fluid.limits().sound_speed;
   }
   double solids_fraction_around(std::size_t rock) const;
+  Vec3 torque_on(std::size_t rock, double dt) const;
 
   CouplingConfig config;
   Vec3 gravity;
@@ -90,6 +100,7 @@ struct Coupling::Implementation {
   std::vector<WettingPoints> points;         // of each shape
   std::vector<double> diameter_per_size;     // of the sphere of equal volume, of each shape
   std::vector<CrossSection> cross_sections;  // of each shape, where the drag law asks
+  std::vector<Turning> turning;              // of each shape, where asked
   std::unique_ptr<ResolvedRocks> resolved;   // where asked
   std::vector<WettingPoints> skins;          // of each shape, where rocks are resolved
 
@@ -99,6 +110,7 @@ struct Coupling::Implementation {
   SlabOrder by_slab;
   std::vector<double> wetted;
   std::vector<Vec3> drag, buoyancy, force, torque;
+  std::vector<WaterAround> around;  // each rock, where water turns rocks
   std::vector<Vec3> core_force,
       beyond_core;  // where rocks are resolved: on the core, and what is missing [N]
   FromRocks to_nodes;
@@ -112,35 +124,6 @@ struct Coupling::Implementation {
   Vec3 on_rocks = Vec3::Zero(), on_fluid = Vec3::Zero();
   double kernel_ratio = 0, least_void = 1;
 };
-
-void CouplingConfig::keys(Schema& s) {
-  s.choice("mode", mode, {{"two_way", CouplingMode::two_way}, {"one_way", CouplingMode::one_way}},
-           {.doc = "one_way: rocks feel the water, the water does not feel the rocks"});
-  s.choice("drag", drag, drag_models, {.doc = "drag law of a rock among others"});
-  s.number("kernel_diameters", kernel_diameters,
-           {.at_least = 2, .at_most = 16, .doc = "least width of the averaging kernel over the rock's size"});
-  s.number("filter_time_factor", filter_time_factor,
-           {.at_least = 0,
-            .at_most = 100,
-            .doc = "buoyancy is low-passed over this many times spacing / sound speed"});
-  s.number("resolve_from", resolve_from,
-           {.at_least = 3,
-            .doc = "rocks at least this many times the water's spacing large are met by the water with their "
-                   "own shape, as walls that move; without it, none are"});
-  if (s.given("resolve_from")) resolve_from_at = s.at("resolve_from");
-  s.number(
-      "resolve_partly_from", resolve_partly_from,
-      {.above = 0,
-       .doc = "from this many times the water's spacing on, up to resolve_from, a growing core of a rock is "
-              "met so, and the rest as in small rocks; a third of resolve_from unless given",
-       .applies = resolve_from.has_value(),
-       .applies_to = "resolve_from"});
-  if (resolve_from && resolve_partly_from && *resolve_partly_from > *resolve_from)
-    s.problem("resolve_partly_from", "is above resolve_from",
-              "rocks are resolved in part before they are resolved whole", "lower it");
-  s.integer("wetting_points", wetting_points,
-            {.at_least = 8, .at_most = 256, .doc = "points in each rock that find its wetted fraction"});
-}
 
 void Coupling::Implementation::place_rocks() {
   const Rocks& all = rocks.rocks();
@@ -218,6 +201,7 @@ void Coupling::Implementation::meet_water(double dt) {
   const std::size_t count = rocks.rocks().count();
   wetted.resize(count);
   buoyancy.resize(count);
+  if (!turning.empty()) around.resize(count);
   if (resolved) {
     beyond_core.resize(count);
     resolved->filtered_force(core_force);
@@ -271,10 +255,12 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
     const double section = cross_sections[shape].seen_along(all.q[r].conjugate() * (slip / in.speed));
     in.crosswise = std::numbers::pi / 4 * std::pow(diameter_per_size[shape], 2) / section;
   }
-  double beta = rock.wetted * drag_per_speed(config.drag, in);
+  const double square = rock.core * rock.core, share = 1 - square * square * square;
+  const double beta = share * rock.wetted * drag_per_speed(config.drag, in);
+  if (!around.empty())
+    around[r] = {in.density, in.viscosity, in.speed > 0 ? Vec3(slip / in.speed) : slip, share * rock.wetted};
   if (rock.core > 0) {
-    const double square = rock.core * rock.core, whole = rock.wetted * rocks.volume(r);
-    beta *= 1 - square * square * square;
+    const double whole = rock.wetted * rocks.volume(r);
     beyond_core[r] =
         (square * square - 1) * (core_force[r] - (1 - rock.outer) * whole * in.density * filtered[r]);
   }
@@ -335,11 +321,31 @@ void Coupling::Implementation::share_impulses(double dt) {
       constexpr int u = rock_lane::velocity;
       drag[r] = rock.take_up / dt * (Vec3(sums[u], sums[u + 1], sums[u + 2]) - all.v[r]);
     }
+    if (!turning.empty() && rock.wetted > 0) torque[r] = torque_on(r, dt);
     force[r] = drag[r] + explicit_force(r);
     if (resolved) drag[r] += beyond_core[r];
   });
   on_rocks += dt * parallel_sum<Vec3>(
                        all.count(), [&](std::size_t r) { return force[r]; }, Vec3::Zero());
+}
+
+// Of drag beside the centre, and against spin: what remains of it after dt, were nothing else to act.
+Vec3 Coupling::Implementation::torque_on(std::size_t r, double dt) const {
+  const Rocks& all = rocks.rocks();
+  const Turning& law = turning[static_cast<std::size_t>(all.shape[r])];
+  const Quat to_body = all.q[r].conjugate();
+  const WaterAround& water = around[r];
+  TurningInput in;
+  in.size = all.size[r];
+  in.density = water.density;
+  in.viscosity = water.viscosity;
+  in.direction = to_body * water.direction;
+  in.spin = to_body * (all.w[r] - grid.level(on_grid[r].level).water_spin(on_grid[r].place));
+  Vec3 moment = law.centre_of_pressure(in).cross(to_body * drag[r]);
+  const Vec3 inertia = rocks.inertia(r), rate = water.share * law.resistance(in);
+  for (int k = 0; k < 3; ++k)
+    moment[k] += inertia[k] * in.spin[k] * std::expm1(-rate[k] * dt / inertia[k]) / dt;
+  return all.q[r] * moment;
 }
 
 void Coupling::Implementation::give_to_fluid() {

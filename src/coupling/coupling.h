@@ -19,8 +19,10 @@
 /// Buoyancy is s V rho (Du/Dt - g - f), s the wetted fraction, f what drag does to the fluid [m/s2],
 /// low-passed: that is -s V grad p of model A, Archimedes in still water, nothing in free fall, and the
 /// weight of water and rock together in a suspension that neither rises nor falls. The fluid carries the
-/// pressure gradient of the whole space and gives the rocks' share back through this impulse. No torque and
-/// no added mass in this range.
+/// pressure gradient of the whole space and gives the rocks' share back through this impulse. No added mass
+/// in this range. Where asked, drag acts at the centre of pressure of long and flat rocks, and spin against
+/// the water's is resisted (turning.h). That couple is not given to the water, whose cells are larger than
+/// the rock.
 ///
 /// A rock that is resolved in part has a core of c times its size (resolved_rocks.h). Void fraction and
 /// buoyancy here are those of the other 1 - c^3 of its volume. Its drag is the share c^6 of that of a body of
@@ -43,10 +45,12 @@ namespace sluice {
 struct ResolvedExtent;
 
 enum class CouplingMode { two_way, one_way };  ///< one-way: rocks feel the water, not the other way round
+enum class CouplingTorque { none, centre_of_pressure };  ///< on rocks that are not resolved; turning.h
 /// Keys under `coupling:` of a process file.
 struct CouplingConfig {
   CouplingMode mode = CouplingMode::two_way;
   DragModel drag = DragModel::di_felice;
+  CouplingTorque torque = CouplingTorque::none;
   double kernel_diameters = 4;       ///< full width of the kernel over the rock's size
   double filter_time_factor = 7;     ///< buoyancy is filtered over this many h / c
   std::int64_t wetting_points = 32;  ///< points on each rock that find its wetted fraction

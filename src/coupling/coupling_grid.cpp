@@ -104,6 +104,26 @@ Vec3 CouplingGrid::place_of(int l, int node) const {
   return domain_.box.lo + index.cwiseProduct(level.spacing);
 }
 
+// Along each axis between the mean of the four nodes on one side and of those on the other; nothing where one
+// side is dry.
+Vec3 CouplingLevel::water_spin(const LevelWeights& place) const {
+  Mat3 gradient = Mat3::Zero();  // column k: along axis k
+  for (int k = 0; k < 3; ++k) {
+    NodeLanes side[2]{};
+    double weight[2]{};
+    for (std::size_t c = 0; c < 8; ++c) {
+      const std::size_t s = c >> k & 1;
+      side[s] += place.weight[c] * rock_at(place.node[c]);
+      weight[s] += place.weight[c];
+    }
+    if (!(weight[0] > 0 && weight[1] > 0)) continue;
+    const NodeLanes rise = (side[1] / weight[1] - side[0] / weight[0]) * per_spacing[k];
+    for (int i = 0; i < 3; ++i) gradient(i, k) = rise[rock_lane::velocity + i];
+  }
+  return 0.5 * Vec3(gradient(2, 1) - gradient(1, 2), gradient(0, 2) - gradient(2, 0),
+                    gradient(1, 0) - gradient(0, 1));
+}
+
 LevelWeights CouplingGrid::weights(int l, const Vec3& x) const {
   const CouplingLevel& level = this->level(l);
   int index[3][2];

@@ -65,6 +65,8 @@ struct CouplingLevel {
   const NodeLanes& fluid_at(int node) const { return fluid[static_cast<std::size_t>(node)].lanes; }
   NodeLanes& rock_at(int node) { return rock[static_cast<std::size_t>(node)].lanes; }
   const NodeLanes& rock_at(int node) const { return rock[static_cast<std::size_t>(node)].lanes; }
+  /// Half the curl of the common velocity u' around a place [rad/s]. @param place  with weights by mass
+  Vec3 water_spin(const LevelWeights& place) const;
 };
 
 /// What rocks do to the fluid's nodes; arrays of #nodes.

@@ -38,7 +38,7 @@ double reynolds_number(const DragInput& in);
 ///   rong              Rong, Dong & Yu (2013): Di Felice's form with another chi, from lattice-Boltzmann beds
 ///   haider_levenspiel   Haider & Levenspiel (1989) eq. 11, Cd of the sphericity
 ///   hoelzer_sommerfeld  Hoelzer & Sommerfeld (2008) eq. 10, Cd of sphericity and crosswise sphericity,
-///                       which stands in the first term as well; it gives no torque
+///                       which stands in the first term as well; torque: turning.h
 /// The last two are of lone rocks; among others they get Di Felice's eps^(2 - chi).
 /// Finite and positive as the speed goes to zero.
 double drag_per_speed(DragModel model, const DragInput& in);

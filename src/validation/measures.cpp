@@ -12,6 +12,7 @@
 #include "validation/coupling_sphere.h"
 #include "validation/coupling_stream.h"
 #include "validation/coupling_third_law.h"
+#include "validation/coupling_turning.h"
 #include "validation/emitter_flux.h"
 #include "validation/rock_bed_energy.h"
 #include "validation/rock_bounces.h"
@@ -77,6 +78,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"coupling_bed", "point", made<CouplingBed>},
       {"coupling_sphere", "point", made<CouplingSphere>},
       {"coupling_stream", "point", made<CouplingStream>},
+      {"coupling_turning", "point", made<CouplingTurning>},
       {"coupling_added_mass", "point", made<CouplingAddedMass>},
       {"coupling_dam", "point", made<CouplingDam>},
       {"coupling_heave", "point", made<CouplingHeave>},
