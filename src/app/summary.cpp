@@ -327,6 +327,7 @@ void write_summary(const RunFolder& folder, const RunState& run, Outcome outcome
     row.time_s = run.simulation.time();
     if (parts.rocks) row.rock = parts.rocks->wall_loads()[w];
     if (parts.water) row.water = parts.water->wall_loads()[w];
+    if (parts.coupling && !parts.coupling->film_loads().empty()) row.water += parts.coupling->film_loads()[w];
     walls.push_back(row);
   }
   write_csv(folder.walls(), wall_table(walls));

@@ -62,6 +62,7 @@ struct Coupling::Implementation {
     if (c.resolve_from) {
       resolved =
           std::make_unique<ResolvedRocks>(c.partly_from() * f.spacing(), *c.resolve_from * f.spacing(), r, f);
+      if (c.lubrication != FilmModel::none) resolved->use_lubrication(c.lubrication_roughness);
       skins = skin_points(r.shapes(), static_cast<int>(c.wetting_points));
     }
     for (const RockShape& shape : r.shapes()) {
@@ -410,6 +411,7 @@ void Coupling::take_resolved(double dt, int k, int n) {
   c.on_fluid -= c.resolved->impulse() - before;
   if (k + 1 < n) return;
   c.resolved->add_mean_loads(dt, c.filter_time(), c.force, c.torque);
+  if (c.config.lubrication != FilmModel::none) c.resolved->add_films(c.wetted, c.nodes, dt, c.force);
   c.rocks.set_fluid_force(c.force, c.torque);
 }
 
@@ -457,6 +459,10 @@ const std::vector<Vec3>& Coupling::force() const {
 }
 const std::vector<Vec3>& Coupling::torque() const {
   return implementation_->torque;
+}
+const std::vector<WallLoad>& Coupling::film_loads() const {
+  static const std::vector<WallLoad> none;
+  return resolves() ? implementation_->resolved->film_loads() : none;
 }
 Vec3 Coupling::impulse_on_rocks() const {
   return implementation_->on_rocks;

@@ -46,6 +46,7 @@ struct ResolvedExtent;
 
 enum class CouplingMode { two_way, one_way };  ///< one-way: rocks feel the water, not the other way round
 enum class CouplingTorque { none, centre_of_pressure };  ///< on rocks that are not resolved; turning.h
+enum class FilmModel { none, normal };  ///< lubrication between resolved rocks and walls; lubrication.h
 /// Keys under `coupling:` of a process file.
 struct CouplingConfig {
   CouplingMode mode = CouplingMode::two_way;
@@ -58,6 +59,9 @@ struct CouplingConfig {
   std::optional<double> resolve_from;
   std::optional<double> resolve_partly_from;  ///< the same for their core; a third of it where not given
   Location resolve_from_at;
+  FilmModel lubrication = FilmModel::none;
+  double lubrication_roughness = 1e-3;  ///< thinnest film over the radius
+  Location lubrication_at;
   double partly_from() const { return resolve_partly_from.value_or(resolve_from.value_or(0) / 3); }
   void keys(Schema& s);
 };
@@ -89,8 +93,9 @@ class Coupling {
   const std::vector<Vec3>& buoyancy_force() const;     ///< per rock, of what is not resolved [N]
   const std::vector<Vec3>& force() const;              ///< all of it, per rock [N]
   const std::vector<Vec3>& torque() const;             ///< per rock [N m]
-  Vec3 impulse_on_rocks() const;                       ///< since start [N s]
-  Vec3 impulse_on_fluid() const;                       ///< since start; the opposite in two-way [N s]
+  const std::vector<WallLoad>& film_loads() const;  ///< one per wall, of films that rocks press on; or none
+  Vec3 impulse_on_rocks() const;                    ///< by the water, films apart, since start [N s]
+  Vec3 impulse_on_fluid() const;                    ///< since start; the opposite in two-way [N s]
   double smallest_kernel_ratio() const;   ///< kernel width over rock size, least so far; 0 = no rock yet
   double smallest_void_fraction() const;  ///< handed to the fluid, least so far
   std::size_t memory_bytes() const;

@@ -27,6 +27,18 @@ void CouplingConfig::keys(Schema& s) {
   if (resolve_from && resolve_partly_from && *resolve_partly_from > *resolve_from)
     s.problem("resolve_partly_from", "is above resolve_from",
               "rocks are resolved in part before they are resolved whole", "lower it");
+  s.choice("lubrication", lubrication, {{"none", FilmModel::none}, {"normal", FilmModel::normal}},
+           {.doc = "normal: films thinner than the water's spacing between resolved spheres, or these and "
+                   "walls, resist being squeezed and drawn",
+            .applies = resolve_from.has_value(),
+            .applies_to = "resolve_from"});
+  if (s.given("lubrication")) lubrication_at = s.at("lubrication");
+  s.number("lubrication_roughness", lubrication_roughness,
+           {.above = 0,
+            .at_most = 0.1,
+            .doc = "thinnest film over the rock's radius",
+            .applies = lubrication != FilmModel::none,
+            .applies_to = "lubrication: normal"});
   s.choice(
       "torque", torque,
       {{"none", CouplingTorque::none}, {"centre_of_pressure", CouplingTorque::centre_of_pressure}},

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/parallel.h"
+
 namespace sluice {
 
 namespace {
@@ -116,6 +118,28 @@ void ResolvedRocks::add_mean_loads(double dt, double tau, std::vector<Vec3>& for
   }
 }
 
+void ResolvedRocks::use_lubrication(double roughness) {
+  lubrication_.emplace(rocks_, rocks_.wall_loads().size(), fluid_.spacing(), roughness);
+}
+
+void ResolvedRocks::add_films(const std::vector<double>& wetted, const FluidNodes& nodes, double dt,
+                              std::vector<Vec3>& force) {
+  if (!lubrication_ || rock_of_.empty()) return;
+  const auto sum = [&](const auto& of) { return parallel_sum<double>(nodes.count(), of, 0.0); };
+  const double mass = sum([&](std::size_t i) { return nodes.mass[i]; });
+  const double moment = sum([&](std::size_t i) { return nodes.mass[i] * nodes.density[i]; });
+  const double fines = mass > 0 ? fines_fraction(fluid_.model(), moment / mass) : 0;
+  std::vector<FilmRock> in_films;
+  for (const std::size_t r : rock_of_)
+    if (wetted[r] > 0) in_films.push_back({r, core(r) * wetted[r]});
+  lubrication_->add(in_films, fluid_.model(), fines, dt, force);
+}
+
+const std::vector<WallLoad>& ResolvedRocks::film_loads() const {
+  static const std::vector<WallLoad> none;
+  return lubrication_ ? lubrication_->wall_loads() : none;
+}
+
 void ResolvedRocks::filtered_force(std::vector<Vec3>& force) const {
   force.assign(rocks_.rocks().count(), Vec3::Zero());
   for (std::size_t i = 0; i < held_.size(); ++i) force[rock_of_[i]] = held_[i].force;
@@ -174,6 +198,7 @@ void ResolvedRocks::exchange(StateArchive& a) {
   a.values("held_force", force);
   a.value("resolved_impulse", impulse_);
   a.value("most_whole", extent_.most_whole);
+  if (lubrication_) lubrication_->exchange(a);
   a.value("most_partly", extent_.most_partly);
   held_.resize(id.size());
   for (std::size_t i = 0; i < id.size(); ++i) {

@@ -10,9 +10,11 @@
 /// step. Sound crosses less than a cell in that time, so that a light body carries its added mass without
 /// iterations.
 
+#include <optional>
 #include <vector>
 
 #include "base/state_archive.h"
+#include "coupling/lubrication.h"
 #include "dem/dem_system.h"
 #include "fluid/fluid_system.h"
 
@@ -38,6 +40,13 @@ class ResolvedRocks {
   /// Adds force [N] and torque [N m] of the step to the entries of the rocks.
   /// @param tau  over which filtered_force follows [s]
   void add_mean_loads(double dt, double tau, std::vector<Vec3>& force, std::vector<Vec3>& torque);
+  /// Films between them and beside walls, from now on.
+  void use_lubrication(double roughness);
+  /// Adds the films' force over the step [N], if asked. @param wetted  share of each rock's skin;
+  /// nodes  of the water, for its mean fines
+  void add_films(const std::vector<double>& wetted, const FluidNodes& nodes, double dt,
+                 std::vector<Vec3>& force);
+  const std::vector<WallLoad>& film_loads() const;  ///< one per wall, or none
   /// Force on each rock in the last steps, filtered [N]; of all rocks, zero where not resolved. Valid between
   /// place and the rocks' next step.
   void filtered_force(std::vector<Vec3>& force) const;
@@ -66,6 +75,7 @@ class ResolvedRocks {
   std::vector<std::size_t> rock_of_;  ///< index of each held rock, until the rocks move
   std::vector<FluidBody> bodies_;
   std::vector<BodyLoad> loads_;  ///< of the step
+  std::optional<Lubrication> lubrication_;
   Vec3 impulse_ = Vec3::Zero();
 };
 

@@ -15,6 +15,7 @@
 #include "base/statistics.h"
 #include "dem/contact_law.h"
 #include "dem/materials.h"
+#include "dem/near_walls.h"
 #include "dem/rock_shape.h"
 #include "dem/rocks.h"
 #include "geometry/wall.h"
@@ -107,6 +108,9 @@ class DemSystem {
   /// True if a sphere [m] meets no rock's bounding sphere and (if asked) no wall. `added` since the
   /// last step counts too.
   bool has_room(const Vec3& x, double radius, bool check_walls) const;
+
+  /// The walls within `reach` [m] of the sphere of a rock's size about its centre, as they are now.
+  std::vector<NearWall> near_walls(std::size_t rock, double reach) const;
 
   /// Takes rocks out; indices ascending. Returns what was removed, in that order.
   std::vector<RemovedRock> remove(std::span<const std::size_t> indices);

@@ -244,6 +244,10 @@ BuiltProcess Builder::build() {
 
   if (config_.rocks) collect([&] { make_rocks(sources); }, config_.rocks_at);
   std::ranges::move(motion_warnings(config_, parts.walls->all()), std::back_inserter(built_.warnings));
+  if (parts.rocks && config_.coupling && config_.coupling->lubrication != FilmModel::none &&
+      !std::ranges::all_of(parts.rocks->shapes(), &RockShape::is_sphere))
+    refuse(config_.coupling->lubrication_at, "lubrication", "is of spheres alone",
+           "some rocks have other shapes", "leave it out, or make all rocks spheres");
   if (config_.water) collect([&] { make_water(); }, config_.water_at);
   std::ranges::move(unresolved_motions(config_, parts.rocks ? parts.rocks->step_size() : 0,
                                        parts.water ? parts.water->limits().step : 0),

@@ -177,6 +177,17 @@ TEST(ResolvedRock, MovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
   moves_alike([] { return Bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 0.15}, .w = {5, 0, 20}}); });
 }
 
+TEST(ResolvedRock, WithAFilmUnderItMovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
+  CouplingConfig config = partly(4);
+  config.lubrication = FilmModel::normal;
+  moves_alike([&] {
+    return Bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 2.3 * h}, .v = {0, 0, -0.1}}, config);
+  });
+  Bath bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 2.3 * h}, .v = {0, 0, -0.1}}, config);
+  bath.step(Pool::Rocks::held);
+  EXPECT_LT(bath.coupling->film_loads()[0].impulse.z(), 0) << "the film presses on the floor";
+}
+
 TEST(PartlyResolvedRock, MovesAlikeOnAnyNumberOfThreadsAndAfterARestart) {
   moves_alike([] {
     return Bath(12, {.size = 4 * h}, {.x = {0.12, 0.123, 0.15}, .w = {5, 0, 20}}, partly(5));

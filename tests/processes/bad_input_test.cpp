@@ -416,5 +416,19 @@ TEST_F(BadInput, MayResolveRocksThatTheWaterDoesNotFeelOrThatAreNoCellsLarge) {
   EXPECT_TRUE(problems_of(with(old, line + "resolve_from: 4, resolve_partly_from: 2}")).empty());
 }
 
+TEST_F(BadInput, MayAskForFilmsWhereNoRockIsResolvedOrIsASphere) {
+  const std::string old = "  fastest_bulk_speed: 2 m/s", line = old + "\ncoupling: {";
+  expect_refused(with(old, line + "lubrication: normal}"), 25, "lubrication", "resolve_from");
+  expect_refused(with(old, line + "resolve_from: 4, lubrication_roughness: 1e-3}"), 25,
+                 "lubrication_roughness", "lubrication: normal");
+  expect_refused(with(old, line + "resolve_from: 4, lubrication: normel}"), 25, "lubrication", "normal");
+  const std::string films = "resolve_from: 4, lubrication: normal}";
+  expect_refused(with(old, line + films), 25, "lubrication", "spheres");
+  std::string spheres = with(old, line + films);
+  const std::string blocks = "{kind: superquadric, blockiness: [2, 4]}";
+  spheres.replace(spheres.find(blocks), blocks.size(), "{kind: sphere}");
+  EXPECT_TRUE(problems_of(spheres).empty());
+}
+
 }  // namespace
 }  // namespace sluice
