@@ -8,6 +8,7 @@
 #include "validation/coupling_dam.h"
 #include "validation/coupling_heave.h"
 #include "validation/coupling_hindered.h"
+#include "validation/coupling_jet.h"
 #include "validation/coupling_settling.h"
 #include "validation/coupling_sphere.h"
 #include "validation/coupling_stream.h"
@@ -78,6 +79,7 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"coupling_bed", "point", made<CouplingBed>},
       {"coupling_sphere", "point", made<CouplingSphere>},
       {"coupling_stream", "point", made<CouplingStream>},
+      {"coupling_jet", "point", made<CouplingJet>},
       {"coupling_turning", "point", made<CouplingTurning>},
       {"coupling_added_mass", "point", made<CouplingAddedMass>},
       {"coupling_dam", "point", made<CouplingDam>},
