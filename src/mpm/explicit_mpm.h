@@ -130,8 +130,9 @@ class ExplicitMpm final : public FluidSystem {
     Vector moment[3];  ///< of change + velocity, by columns like C [m/s]
     Real bulk, fill, dilation, least_fill;
     Real bulk_moment[3], fill_moment[3];
-    bool knows_all;  ///< of C; else `kept` stays
-    Real kept[6];    ///< of C: I - 4 sum b w d d^T, as xx yy zz yz xz xy
+    bool knows_all;       ///< of C; else `kept` stays
+    bool in_gap = false;  ///< between walls that all but touch
+    Real kept[6];         ///< of C: I - 4 sum b w d d^T, as xx yy zz yz xz xy
   };
   struct GatherScratch {
     static constexpr int batch = 16;
@@ -185,6 +186,8 @@ class ExplicitMpm final : public FluidSystem {
   void gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   Real gather_void_fraction(const Point& p, int local, const NodeTile& tile) const;
   Vector update(Point& p, const Gathered& g) const;
+  void carry_in_gap(Point& p, Vector& moved, std::int32_t cell_key, std::int32_t stencil,
+                    WallImpulses& impulses) const;
   void stop_at_walls(Point& p, const Place& before, std::int32_t cell_key, std::int32_t stencil,
                      WallImpulses& impulses) const;
   std::optional<WallHit> first_hit(std::int32_t stencil, const Vec3& from, const Vec3& to) const;

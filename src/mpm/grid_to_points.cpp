@@ -200,6 +200,11 @@ void ExplicitMpm<Real>::move_cell(std::span<const std::uint32_t> slots, std::siz
   }
   for (std::size_t n = 0; n < count; ++n)
     scratch.moved[n] = update(store_.points[slots[n]], scratch.gathered[n]);
+  if (stencil >= 0)
+    for (std::size_t n = 0; n < count; ++n)
+      if (scratch.gathered[n].in_gap)
+        carry_in_gap(store_.points[slots[n]], scratch.moved[n], store_.key[slots[n]], stencil,
+                     impulses_[index]);
   if (yields_)
     for (const std::uint32_t slot : slots) {
       Point& p = store_.points[slot];

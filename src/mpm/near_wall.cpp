@@ -2,6 +2,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "mpm/explicit_mpm.h"
 #include "mpm/hidden_nodes.h"
@@ -11,9 +13,11 @@
 namespace sluice {
 
 namespace {
-constexpr double stand_off = 1e-4;  ///< of a stopped point from its wall [cells]
-constexpr int most_path_hits = 3;   ///< a corner of three walls
-constexpr int most_bodies = 16;     ///< within reach of a point
+constexpr double stand_off = 1e-4;        ///< of a stopped point from its wall [cells]
+constexpr int most_path_hits = 3;         ///< a corner of three walls
+constexpr double narrowest_gap = 0.1;     ///< between walls in which water has a way of its own [cells]
+constexpr double face_each_other = -0.9;  ///< cosine between their normals
+constexpr int most_bodies = 16;           ///< within reach of a point
 /// Weight of the visible nodes from which on their mean speaks for the hidden ones; below, gravity fills in.
 /// Water in bulk has pressure that holds it against gravity, also in a corner that hides most nodes.
 constexpr double enough_seen_of_spray = 0.25, enough_seen_of_bulk = 0.02;
@@ -41,6 +45,17 @@ void share_out(const Surroundings& around, const HiddenNodes& hidden, const Vec3
     }
   out.add_turning(hidden.wall, impulse, turning(first));
 }
+
+/// Two walls that face each other and leave less than `narrowest_gap`.
+std::optional<std::pair<WallPlane, WallPlane>> narrow_gap(const Surroundings& around) {
+  for (int q = 1; q < around.plane_count; ++q)
+    for (int r = 0; r < q; ++r)
+      if (around.planes[q].normal.dot(around.planes[r].normal) < face_each_other &&
+          around.planes[q].distance + around.planes[r].distance < narrowest_gap * around.h)
+        return std::pair{around.planes[r], around.planes[q]};
+  return std::nullopt;
+}
+
 template <class Triple>
 Vec3 offset_of(const Triple& x) {
   return {static_cast<double>(x[0]), static_cast<double>(x[1]), static_cast<double>(x[2])};
@@ -85,12 +100,14 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   const WallField& field = *record.field;
   Surroundings around{.field = field, .h = config_.spacing, .x = position(p.x, cell_key)};
   field.visibility(record.stencil, layout_.cell_of(cell_key) - Vec3i::Ones(), around.x, around.seen);
+  g.in_gap = false;
   if (around.seen.hidden == 0) {
     gather(p, local, tile, g);
     return;
   }
 
   around.plane_count = field.planes_of_point(record.stencil, around.x, around.planes, most_planes);
+  g.in_gap = narrow_gap(around).has_value();
   const Vec3 v = velocity_of(p);
   std::uint32_t holds = 0;
   Vec3 wall_velocity[most_planes], wall_change[most_planes];
@@ -257,6 +274,34 @@ std::optional<WallHit> ExplicitMpm<Real>::first_hit(std::int32_t stencil, const 
   return first;
 }
 
+/// Water between two walls that all but touch sticks to both, without pressure: cells do not see where it
+/// could go, and what its nodes tell it comes from water outside. Half of what it gives up goes to each.
+template <class Real>
+void ExplicitMpm<Real>::carry_in_gap(Point& p, Vector& moved, std::int32_t cell_key, std::int32_t stencil,
+                                     WallImpulses& impulses) const {
+  const WallRecord record = record_of(stencil);
+  Surroundings around{.field = *record.field, .h = config_.spacing, .x = position(p.x, cell_key)};
+  around.plane_count = around.field.planes_of_point(record.stencil, around.x, around.planes, most_planes);
+  const auto gap = narrow_gap(around);
+  if (!gap) return;
+  const auto contact = [&](const WallPlane& plane) { return Vec3(around.x + plane.distance * plane.normal); };
+  const WallPlane &a = gap->first, &b = gap->second;
+  const Vec3 v = velocity_of(p);
+  const Vec3 walls =
+      0.5 * (poses_.surface_velocity(a.wall, contact(a)) + poses_.surface_velocity(b.wall, contact(b)));
+  const Vec3 change = static_cast<double>(step_.relax_velocity) * (walls - v);
+  const Vec3 given = -0.5 * static_cast<double>(p.mass()) * change;
+  impulses.add(a.wall, given, contact(a));
+  impulses.add(b.wall, given, contact(b));
+  for (int r = 0; r < 3; ++r) {
+    p.v[r] = static_cast<Real>(v[r] + change[r]);
+    for (int c = 0; c < 3; ++c) p.C[c][r] = 0;
+  }
+  moved = step_.cells_per_speed * p.v;
+  moved[3] = 0;
+  p.x[3] = 0;
+}
+
 /// No path crosses a wall: the point stops at the first one that its path meets.
 template <class Real>
 void ExplicitMpm<Real>::stop_at_walls(Point& p, const Place& before, std::int32_t cell_key,
@@ -285,12 +330,16 @@ template bool ExplicitMpm<float>::hide_nodes(const Point&, std::int32_t, std::in
                                              WallImpulses&) const;
 template void ExplicitMpm<float>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
                                                    Gathered&, WallImpulses&) const;
+template void ExplicitMpm<float>::carry_in_gap(Point&, Vector&, std::int32_t, std::int32_t,
+                                               WallImpulses&) const;
 template void ExplicitMpm<float>::stop_at_walls(Point&, const Place&, std::int32_t, std::int32_t,
                                                 WallImpulses&) const;
 template bool ExplicitMpm<double>::hide_nodes(const Point&, std::int32_t, std::int32_t, Contribution&,
                                               WallImpulses&) const;
 template void ExplicitMpm<double>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
                                                     Gathered&, WallImpulses&) const;
+template void ExplicitMpm<double>::carry_in_gap(Point&, Vector&, std::int32_t, std::int32_t,
+                                                WallImpulses&) const;
 template void ExplicitMpm<double>::stop_at_walls(Point&, const Place&, std::int32_t, std::int32_t,
                                                  WallImpulses&) const;
 

@@ -129,7 +129,10 @@ int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x
       const BodyFace face = sight.face(body, seen_at);
       const double distance = std::max(0.0, face.height);
       const int patch = sight.patch_of_body(body);
-      if (distance >= best.distance || merged(-face.normal) || !in_sight(face.foot, patch)) continue;
+      // Within a body that reaches into another wall, that wall may stand before the body's surface.
+      const bool outside = face.height > 0;
+      if (distance >= best.distance || merged(-face.normal) || (outside && !in_sight(face.foot, patch)))
+        continue;
       best = {distance, patch, -face.normal, face.foot};
     }
     if (best.patch < 0) break;

@@ -8,8 +8,8 @@
 namespace sluice {
 
 namespace {
-constexpr double height = 0.3, length = 0.9, g = 9.81;  // [m], [m/s2]
-constexpr double rock = 0.02, edge = 0.09;              // [m]
+constexpr double height = 0.3, length = 0.9, top = 1, g = 9.81;  // [m], [m/s2]
+constexpr double rock = 0.02, edge = 0.09;                       // [m]
 }  // namespace
 
 void CouplingDam::keys(Schema& s) {
@@ -30,8 +30,8 @@ Measured CouplingDam::run(const CsvTable& reference) const {
   setup.water.config.fastest_bulk_speed = 2 * std::sqrt(g * height);
   setup.water.config.deepest = height;
   setup.water.gravity = {0, 0, -g};
-  setup.water.domain = water_domain({Vec3(-h, 0, -h), Vec3(length + h, width, 0.6)}, {false, true, false});
-  ImmersedScene scene(setup, trough(length, width, 0.6, h));
+  setup.water.domain = water_domain({Vec3(-h, 0, -h), Vec3(length + h, width, top)}, {false, true, false});
+  ImmersedScene scene(setup, trough(length, width, top, h));
   const double c = scene.fluid.water->limits().sound_speed;
   WaterFill fill;
   fill.box = {Vec3::Zero(), Vec3(height, width, height)};

@@ -166,5 +166,41 @@ TEST(MovingVessel, LeavesTheSameBitsForAnyNumberOfThreadsAndAfterARestart) {
   for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
 }
 
+// Cells do not see where water goes that is squeezed between walls: it does not shoot out of nothing.
+TEST(ClosingWalls, HoldTheLastOfTheWaterBetweenThem) {
+  const double from = 1.4 * h, to = 0.03 * h, side = 5.3 * h, closing = 0.1;
+  Wall floor, plate;
+  floor.name = "floor";
+  floor.mesh = make_rectangle("floor", {Vec3(-0.3, -0.3, 0.004), Vec3(0.3, -0.3, 0.004),
+                                        Vec3(0.3, 0.3, 0.004), Vec3(-0.3, 0.3, 0.004)});
+  plate.name = "plate";
+  const double z = 0.004 + from;
+  plate.mesh = make_box("plate", {Vec3(0.003, 0.001, z), Vec3(0.003 + side, 0.001 + side, z + 3 * h)});
+  WallMotion motion = carried(closing, Vec3(0, 0, to - from), 0);
+  plate.motion = motion;
+  std::vector<Wall> all{floor, plate};
+  const Walls walls(std::move(all));
+  MpmConfig config;
+  config.spacing = h;
+  config.fastest_bulk_speed = 1;
+  const auto water =
+      make_mpm(config, open_box(Vec3::Constant(-0.3), Vec3::Constant(0.3)), Vec3(0, 0, -9.81), walls);
+  fill_with_water(*water, h / 2, {.box = {Vec3(0, 0, 0.004), Vec3(0.006 + side, 0.002 + side, 0.004 + h)}});
+  const auto fastest_below = [&] {
+    double fastest = 0;
+    const WaterPoints p = water->points();
+    for (std::size_t i = 0; i < p.count(); ++i)
+      if (p.x[i].x() > 0.003 && p.x[i].x() < 0.003 + side && p.x[i].y() > 0.001 && p.x[i].y() < 0.001 + side)
+        fastest = std::max(fastest, p.v[i].norm());
+    return fastest;
+  };
+  double t = 0;
+  for (const double dt = water->limits().step; t < 0.2; t += dt) step_water(*water, t, dt);
+  EXPECT_LT(fastest_below(), 0.05);
+  Vec3 gap = water->momentum() - water->momentum_added() - water->impulse_from_gravity();
+  for (const WallLoad& load : water->wall_loads()) gap += load.impulse;
+  EXPECT_LT(gap.norm(), 1e-4 * water->impulse_from_gravity().norm());
+}
+
 }  // namespace
 }  // namespace sluice
