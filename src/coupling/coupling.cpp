@@ -30,17 +30,11 @@ struct RockOnGrid {
   double displaced = 0;  ///< wetted volume [m3]
 };
 
-/// What drag and torque on a rock share.
-struct WaterAround {
-  double density = 0, viscosity = 0;
-  Vec3 direction = Vec3::Zero();  ///< of the water past the rock, unit vector
-  double share = 0;               ///< of the law that acts
-};
-
-/// Size of the largest rock that has to do with the coupling grid [m].
+/// Size of the largest rock on which a drag law acts [m].
 double largest_unresolved(const CouplingConfig& config, const DemSystem& rocks, const FluidSystem& fluid) {
   const double largest = rocks.scene().largest_size;
-  return config.resolve_from ? std::min(largest, *config.resolve_from * fluid.spacing()) : largest;
+  const bool law_ends = config.resolve_from && fluid.sticks_to_walls();
+  return law_ends ? std::min(largest, *config.resolve_from * fluid.spacing()) : largest;
 }
 
 /// How far outside a resolved rock its surface is asked whether it is wet [cells].
@@ -58,6 +52,7 @@ struct Coupling::Implementation {
              c.kernel_diameters * largest_unresolved(c, r, f)),
         table(domain, f.spacing()),
         domain(domain) {
+    own_drag = f.sticks_to_walls();
     points = wetting_points(r.shapes(), static_cast<int>(c.wetting_points));
     if (c.resolve_from) {
       resolved =
@@ -89,6 +84,7 @@ struct Coupling::Implementation {
     return config.filter_time_factor * fluid.spacing() / fluid.limits().sound_speed;
   }
   double solids_fraction_around(std::size_t rock) const;
+  bool meets_law(const RockOnGrid& rock) const { return rock.core < 1 || !own_drag; }
   Vec3 torque_on(std::size_t rock, double dt) const;
 
   CouplingConfig config;
@@ -103,6 +99,7 @@ struct Coupling::Implementation {
   std::vector<CrossSection> cross_sections;  // of each shape, where the drag law asks
   std::vector<Turning> turning;              // of each shape, where asked
   std::unique_ptr<ResolvedRocks> resolved;   // where asked
+  bool own_drag = false;                     // resolved rocks feel no law, but what the water does
   std::vector<WettingPoints> skins;          // of each shape, where rocks are resolved
 
   FluidNodes nodes;
@@ -133,7 +130,7 @@ void Coupling::Implementation::place_rocks() {
   for (std::size_t r = 0; r < all.count(); ++r) {
     on_grid[r].core = resolved ? resolved->core(r) : 0;
     on_grid[r].outer = 1 - on_grid[r].core * on_grid[r].core * on_grid[r].core;
-    if (on_grid[r].core == 1) continue;
+    if (!meets_law(on_grid[r])) continue;
     on_grid[r].level = grid.level_for(config.kernel_diameters * all.size[r]);
     double& size = largest[static_cast<std::size_t>(on_grid[r].level)];
     size = std::max(size, all.size[r]);
@@ -146,7 +143,7 @@ void Coupling::Implementation::place_rocks() {
   parallel_for(all.count(),
                [&](std::size_t r) { on_grid[r].place = grid.weights(on_grid[r].level, all.x[r]); });
   by_slab.sort(all.count(), grid.slab_count(),
-               [&](std::size_t r) { return on_grid[r].core == 1 ? -1 : on_grid[r].place.slab; });
+               [&](std::size_t r) { return meets_law(on_grid[r]) ? on_grid[r].place.slab : -1; });
   grid.clear_solids();
   grid.each_slab(by_slab, [&](std::size_t, std::span<const std::uint32_t> items) {
     for (const std::uint32_t r : items)
@@ -227,7 +224,7 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
     rock.wetted = table.wetted_fraction(skins[shape], all.x[r], all.q[r].toRotationMatrix() * grown,
                                         all.radius[r] * grown / all.size[r]);
     wetted[r] = rock.wetted;
-    if (rock.core == 1) rock.wetted = 0;
+    if (!meets_law(rock)) rock.wetted = 0;
     if (rock.wetted <= 0) return;
   }
   NodeLanes sums{};
@@ -256,10 +253,12 @@ void Coupling::Implementation::meet_water(std::size_t r, double dt) {
     const double section = cross_sections[shape].seen_along(all.q[r].conjugate() * (slip / in.speed));
     in.crosswise = std::numbers::pi / 4 * std::pow(diameter_per_size[shape], 2) / section;
   }
-  const double square = rock.core * rock.core, share = 1 - square * square * square;
+  const double square = rock.core * rock.core, beyond = 1 - square * square * square;
+  const double share = own_drag ? beyond : 1;
   const double beta = share * rock.wetted * drag_per_speed(config.drag, in);
   if (!around.empty())
-    around[r] = {in.density, in.viscosity, in.speed > 0 ? Vec3(slip / in.speed) : slip, share * rock.wetted};
+    around[r] = {in.density, in.viscosity, in.speed > 0 ? Vec3(slip / in.speed) : slip, beyond * rock.wetted,
+                 beyond / share};
   if (rock.core > 0) {
     const double whole = rock.wetted * rocks.volume(r);
     beyond_core[r] =
@@ -342,8 +341,8 @@ Vec3 Coupling::Implementation::torque_on(std::size_t r, double dt) const {
   in.viscosity = water.viscosity;
   in.direction = to_body * water.direction;
   in.spin = to_body * (all.w[r] - grid.level(on_grid[r].level).water_spin(on_grid[r].place));
-  Vec3 moment = law.centre_of_pressure(in).cross(to_body * drag[r]);
-  const Vec3 inertia = rocks.inertia(r), rate = water.share * law.resistance(in);
+  Vec3 moment = water.turning * law.centre_of_pressure(in).cross(to_body * drag[r]);
+  const Vec3 inertia = rocks.inertia(r), rate = water.resisting * law.resistance(in);
   for (int k = 0; k < 3; ++k)
     moment[k] += inertia[k] * in.spin[k] * std::expm1(-rate[k] * dt / inertia[k]) / dt;
   return all.q[r] * moment;

@@ -25,11 +25,14 @@
 /// the rock.
 ///
 /// A rock that is resolved in part has a core of c times its size (resolved_rocks.h). Void fraction and
-/// buoyancy here are those of the other 1 - c^3 of its volume. Its drag is the share c^6 of that of a body of
-/// its size which is met as the core is, 1 / c^2 times the core's, and the share 1 - c^6 of the law's: here
-/// acts what is missing to that. The core's drag is its force, filtered, less its buoyancy. So all are
-/// continuous in the size of rocks, from a chip to a lump, and small cores, whose drag cells exaggerate,
-/// count little.
+/// buoyancy here are those of the other 1 - c^3 of its volume. The core's own drag is its force, filtered,
+/// less its buoyancy; cells exaggerate a small core's, and the share c^4 of it counts: what is too much is
+/// taken back here, so that all is continuous in the size of rocks, from a chip to a lump. How much of the
+/// law acts is a matter of the surface:
+///   water slips, or has a film   the flow past what is resolved is nearly ideal, without the separation that
+///                                makes a rock's drag: the law acts on every rock, resolved or not
+///   water sticks                 a resolved rock's drag is its own; the law's share is 1 - c^6
+/// On what is resolved no torque acts here.
 
 #include <memory>
 #include <optional>

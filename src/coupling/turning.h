@@ -30,6 +30,14 @@ struct TurningInput {
   Vec3 spin = Vec3::Zero();       ///< of the rock against the water's own, body frame [rad/s]
 };
 
+/// What drag and torque on a rock share.
+struct WaterAround {
+  double density = 0, viscosity = 0;
+  Vec3 direction = Vec3::Zero();  ///< of the water past the rock, unit vector
+  double resisting = 0;           ///< share of the law against spin that acts
+  double turning = 0;             ///< share of the drag that acts beside the centre
+};
+
 class Turning {
  public:
   explicit Turning(const RockShape& shape);

@@ -46,6 +46,9 @@ class FluidSystem {
   virtual double spacing() const = 0;  ///< [m]
   virtual const FluidStepLimits& limits() const = 0;
   virtual const FluidModel& model() const = 0;
+  /// True where water sticks to walls: then the drag of a body is its own, else only its form's part in ideal
+  /// flow, which is none.
+  virtual bool sticks_to_walls() const = 0;
   virtual double point_volume() const = 0;  ///< rest volume of one point [m3]
 
   virtual std::uint64_t add(const NewPoint& point) = 0;  ///< returns the id

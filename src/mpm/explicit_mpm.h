@@ -40,6 +40,7 @@ class ExplicitMpm final : public FluidSystem {
   double spacing() const override { return config_.spacing; }
   const FluidStepLimits& limits() const override { return limits_; }
   const FluidModel& model() const override { return config_.fluid; }
+  bool sticks_to_walls() const override { return config_.wall_slip == WallSlip::no_slip; }
   double point_volume() const override;
   std::uint64_t add(const NewPoint& point) override;
   std::size_t count() const override { return store_.count(); }

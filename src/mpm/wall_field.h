@@ -45,6 +45,7 @@ struct WallPlane {
   double distance = 0;  ///< from the node or point to the plane, >= 0 [m]
   int wall = -1;        ///< index of Walls::all()
   int patch = -1;
+  double curvature = 0;  ///< mean, of a body; 0 of a flat wall [1/cells]
 };
 
 /// Which of the 27 nodes around a point are hidden from it. Bit i + 3 j + 9 k for the node base + (i, j, k).

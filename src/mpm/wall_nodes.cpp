@@ -17,6 +17,7 @@ struct Candidate {
   int patch = -1;               ///< or a body as one; -1: none
   Vec3 normal = Vec3::Zero();   ///< towards the wall
   Vec3 surface = Vec3::Zero();  ///< a place of its plane
+  double curvature = 0;         ///< mean
 };
 
 Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
@@ -97,8 +98,8 @@ int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x
     const double height = height_over(plane, seen_at);
     if (!(std::abs(height) < plane_reach)) return 0;
     const double side = is_above(height) ? 1 : -1;
-    out[0] = {-side * plane.normal, std::max(0.0, side * height_over(plane, x)), plane.wall,
-              patches[0].patch};
+    out[0] = {-side * plane.normal, std::max(0.0, side * height_over(plane, x)), plane.wall, patches[0].patch,
+              0};
     return 1;
   }
   int written = 0;
@@ -123,7 +124,7 @@ int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x
       if (!foot) continue;
       const double distance = (*foot - seen_at).norm();
       if (distance >= best.distance || !in_sight(*foot, p.patch)) continue;
-      best = {distance, p.patch, normal, plane.offset * plane.normal};
+      best = {distance, p.patch, normal, plane.offset * plane.normal, 0};
     }
     for (const std::int32_t body : sight.stencils.bodies_of(record)) {
       const BodyFace face = sight.face(body, seen_at);
@@ -133,11 +134,11 @@ int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x
       const bool outside = face.height > 0;
       if (distance >= best.distance || merged(-face.normal) || (outside && !in_sight(face.foot, patch)))
         continue;
-      best = {distance, patch, -face.normal, face.foot};
+      best = {distance, patch, -face.normal, face.foot, face.curvature};
     }
     if (best.patch < 0) break;
     out[written++] = {best.normal, std::max(0.0, best.normal.dot(best.surface - x)),
-                      sight.wall_of(best.patch), best.patch};
+                      sight.wall_of(best.patch), best.patch, best.curvature};
   }
   return written;
 }

@@ -39,6 +39,7 @@ class NodeFluid : public FluidSystem {
   double spacing() const override { return nodes_.spacing; }
   const FluidStepLimits& limits() const override { return limits_; }
   const FluidModel& model() const override { return model_; }
+  bool sticks_to_walls() const override { return false; }
   double point_volume() const override { return std::pow(nodes_.spacing / 2, 3); }
   std::uint64_t add(const NewPoint&) override { return 0; }
   std::size_t count() const override { return 0; }

@@ -16,6 +16,7 @@ class FakeFluid : public FluidSystem {
   double spacing() const override { return 2 * spacing_; }
   const FluidStepLimits& limits() const override { return limits_; }
   const FluidModel& model() const override { return model_; }
+  bool sticks_to_walls() const override { return false; }
   double point_volume() const override { return spacing_ * spacing_ * spacing_; }
 
   std::uint64_t add(const NewPoint& p) override {
