@@ -53,10 +53,11 @@ void add_with_images(std::span<const WallPlane> planes, std::size_t k, double sp
 /// flow, 1 - (1 + k s)^-3, not evenly: an even field that has its value and slope at s still flows at the
 /// surface, by its slope times (2 x^2 + 4/3 x^3 + x^4/3) / k, x = k s. The node speaks for points at s^2 +
 /// 1/4 in the mean square. Without this a ball is braked as by a liquid of the viscosity h c.
+/// No more than x = 1/2 counts: at the edges of blocks, which bend within a cell, more of it makes spikes.
 /// @return  the length that multiplies the slope [cells]
 double bend_of_flow(double curvature, double s) {
   if (curvature == 0) return 0;
-  const double x = std::min(1.0, curvature * std::sqrt(s * s + 0.25));
+  const double x = std::min(0.5, curvature * std::sqrt(s * s + 0.25));
   return x * x * (2 + x * (4.0 / 3 + x / 3)) / curvature;
 }
 

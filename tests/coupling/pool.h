@@ -67,16 +67,19 @@ struct Pool {
   }
 
   enum class Rocks { held, falling };
-  void step(Rocks how) {
-    const double dt = water->limits().step;
-    if (coupling->resolves()) coupling->place_resolved(dt, 0, 1);
+  /// A step of the coupling, in which the water makes `water_steps` of its own.
+  void step(Rocks how, int water_steps = 1) {
+    const double of_water = water->limits().step, dt = water_steps * of_water;
     coupling->solids_to_grid();
-    water->points_to_grid(t, dt);
-    coupling->drag(dt);
-    water->walls(dt);
-    water->grid_to_points(dt);
-    coupling->fluid_to_grid(dt);
-    if (coupling->resolves()) coupling->take_resolved(dt, 0, 1);
+    for (int k = 0; k < water_steps; ++k) {
+      if (coupling->resolves()) coupling->place_resolved(dt, k, water_steps);
+      water->points_to_grid(t + k * of_water, of_water);
+      if (k == 0) coupling->drag(dt);
+      water->walls(of_water);
+      water->grid_to_points(of_water);
+      if (k == 0) coupling->fluid_to_grid(of_water);
+      if (coupling->resolves()) coupling->take_resolved(dt, k, water_steps);
+    }
     const int n = static_cast<int>(std::ceil(dt / rocks->step_size()));
     for (int k = 0; how == Rocks::falling && k < n; ++k) rocks->step(t + k * dt / n, dt / n);
     t += dt;
