@@ -5,15 +5,15 @@
 #include <fstream>
 
 #include "base/errors.h"
+#include "output/temporary_folder.h"
 #include "processes/study_config.h"
 
 namespace sluice {
 namespace {
 
-namespace fs = std::filesystem;
-
 std::string problems_of(const std::string& keys) {
-  const fs::path file = fs::temp_directory_path() / "sluice_study_input.yaml";
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.path / "study.yaml";
   std::ofstream(file) << "title: T\nprocess: " << SLUICE_ROOT << "/processes/container/water.yaml\n" << keys;
   try {
     read_study(file);

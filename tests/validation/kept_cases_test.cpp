@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "base/errors.h"
+#include "output/temporary_folder.h"
 
 namespace sluice {
 namespace {
@@ -42,8 +43,8 @@ ValidationRecord two_cases() {
 class KeptCases : public ::testing::Test {
  protected:
   void write(const std::string& text) { std::ofstream(file) << text; }
-  std::filesystem::path file = std::filesystem::temp_directory_path() / "sluice_kept_cases_test.json";
-  void TearDown() override { std::filesystem::remove(file); }
+  TemporaryFolder folder;
+  std::filesystem::path file = folder.path / "validation.json";
 };
 
 TEST_F(KeptCases, AreReadAsTheyWereWritten) {
