@@ -13,10 +13,11 @@
 /// by averaging the departure of J from the local pressure gradient, anchored to the density on the grid.
 ///
 /// Spray. `bulk` b_i of a node ramps from 0 to 1 as its cell fills. A point takes
-///     v += sum w dv_i + a sum w b_i (v_i - v - C d)
-/// which moves no net momentum for any b_i, because v_i is the momentum mean of just these (v + C d). In
-/// nearly empty cells b = 0: the point keeps its velocity, feels gravity and drag, has no pressure, and
-/// shares its momentum with the water that it meets when the cells are full there.
+///     v += sum w dv_i + a sum w e_i b_i (v_i - v - C d)
+/// with the pull e_i of full nodes, less than 1 where they accelerate. No e_i and b_i move net momentum,
+/// because v_i is the momentum mean of just these (v + C d). In nearly empty cells b = 0: the point keeps its
+/// velocity, feels gravity and drag, has no pressure, and shares its momentum with the water that it meets
+/// when the cells are full there.
 
 #include <memory>
 
@@ -97,7 +98,9 @@ class ExplicitMpm final : public FluidSystem {
   struct NodeTile {
     Node node[BlockLayout::tile_nodes];
     Real void_fraction[BlockLayout::tile_nodes];
-    Real least_fill[BlockLayout::nodes];  ///< over the 27 nodes of each cell
+    Real least_fill[BlockLayout::nodes];     ///< over the 27 nodes of each cell
+    bool eased;                              ///< some node pulls less than wholly; only then is `pulled` set
+    Vector pulled[BlockLayout::tile_nodes];  ///< pull times b v and b
   };
   /// What one block's grid_to_points found.
   struct BlockReport {
@@ -125,12 +128,12 @@ class ExplicitMpm final : public FluidSystem {
   /// What a point gathers from its 27 nodes: weighted sums, and sums of w d with d in cells.
   struct Gathered {
     Vector change;     ///< of v [m/s]
-    Vector velocity;   ///< b v_old [m/s]
+    Vector pulled;     ///< pull b v_old [m/s], pull b
     Vector pressure;   ///< change of v by pressure alone [m/s]
     Vector centre;     ///< mean x_p - x_i there [cells]
     Vector moment[3];  ///< of change + velocity, by columns like C [m/s]
     Real bulk, fill, dilation, least_fill;
-    Real bulk_moment[3], fill_moment[3];
+    Real bulk_moment[3], fill_moment[3], pulled_moment[3];
     bool knows_all;       ///< of C; else `kept` stays
     bool in_gap = false;  ///< between walls that all but touch
     Real kept[6];         ///< of C: I - 4 sum b w d d^T, as xx yy zz yz xz xy
@@ -184,6 +187,8 @@ class ExplicitMpm final : public FluidSystem {
   void gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, const NodeTile& tile,
                         Gathered& g, WallImpulses& impulses) const;
   void gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
+  template <int row, int layer>
+  void gather_pulled(const Vector* corner, const Point& p, Gathered& g) const;
   void gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   Real gather_void_fraction(const Point& p, int local, const NodeTile& tile) const;
   Vector update(Point& p, const Gathered& g) const;

@@ -51,6 +51,12 @@ void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const
       tile.void_fraction[to + n] = 1 - ramp * (1 - voids[from + n]);
     }
   });
+  tile.eased = std::any_of(std::begin(tile.node), std::end(tile.node), [](const Node& n) {
+    return n[node_lane::mass] > 0 && n[node_lane::near_wall] < 1;
+  });
+  if (tile.eased)
+    for (int n = 0; n < BlockLayout::tile_nodes; ++n)
+      tile.pulled[n] = tile.node[n][node_lane::near_wall] * tile.node[n].quad(0);
   for (int local = 0; local < BlockLayout::nodes; ++local) {
     const int corner = (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
     Real least = tile.node[corner][node_lane::fill];
@@ -65,19 +71,20 @@ void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const
 template <class Real>
 void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const {
   using namespace node_lane;
-  const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
+  const int corner = (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
   Node sum;
   typename Node::Half moment[3];
-  spline_sums<6, 36>(corner, p.x, sum, moment);
-  g.velocity = sum.quad(0);
+  spline_sums<6, 36>(tile.node + corner, p.x, sum, moment);
   g.change = sum.quad(1);
   g.centre = sum.quad(2);
   g.pressure = sum.quad(3);
   for (int c = 0; c < 3; ++c) {
     g.moment[c] = sum_of_quads<Real>(moment[c]);
-    g.bulk_moment[c] = moment[c][node_lane::mass];
+    g.bulk_moment[c] = g.pulled_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill];
   }
+  g.pulled =
+      tile.eased ? spline_sum_of_quads<6, 36>(tile.pulled + corner, p.x, g.pulled_moment) : sum.quad(0);
   g.bulk = sum[node_lane::mass];
   g.fill = sum[fill];
   g.dilation = sum[dilation];
@@ -133,8 +140,10 @@ template <class Real>
 auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
   const Real* bulk = g.bulk_moment;
   const Vector old = p.v;
-  const Vector own = g.bulk * old + step_.h * (bulk[0] * p.C[0] + bulk[1] * p.C[1] + bulk[2] * p.C[2]);
-  const Vector to_grid = g.velocity - own;
+  const Real* pulled = g.pulled_moment;
+  const Vector own =
+      g.pulled[3] * old + step_.h * (pulled[0] * p.C[0] + pulled[1] * p.C[1] + pulled[2] * p.C[2]);
+  const Vector to_grid = g.pulled - own;
   const Vector v = old + g.change;
   Vector moved = step_.cells_per_speed * (v + to_grid);
   p.v = with_fourth(v + step_.relax_velocity * to_grid, old[3]);

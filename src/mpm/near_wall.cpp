@@ -123,20 +123,23 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   group_hidden(around, offset_of(p.x), holds, groups);
 
   // Visible nodes; the lane of the mass is lent to the weight.
-  const Node* corner = tile.node + (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
+  const int corner = (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
   Node kept, lent;
   for (auto& part : kept.part) part = typename Node::Register{} + Real(1);
   kept[node_lane::near_wall] = 0;
   lent.clear();
   lent[node_lane::near_wall] = 1;
   Node visible[27];
+  Vector pulled[27];
   Real least = std::numeric_limits<Real>::max();
   for (int n = 0; n < 27; ++n) {
-    const Node& node = corner[n % 3 + 6 * (n / 3 % 3) + 36 * (n / 9)];
+    const int index = corner + n % 3 + 6 * (n / 3 % 3) + 36 * (n / 9);
+    const Node& node = tile.node[index];
     const bool hidden = (around.seen.hidden >> n & 1) != 0;
     const Real shows = hidden ? Real(0) : Real(1);
     for (int r = 0; r < Node::registers; ++r)
       visible[n].part[r] = shows * (node.part[r] * kept.part[r] + lent.part[r]);
+    if (tile.eased) pulled[n] = shows * tile.pulled[index];
     if (!hidden) least = std::min(least, node[fill]);
   }
   Node sum;
@@ -154,7 +157,6 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   g.dilation = weight > 0 ? sum[dilation] * per_weight : p.dilation();
   g.least_fill = weight > 0 ? least : Real(0);
   g.change = sum.quad(1);
-  g.velocity = sum.quad(0);
   g.pressure = sum.quad(3) * per_weight;
   g.centre = sum.quad(2) * per_weight;
   const double mean_bulk = static_cast<double>(g.bulk * per_weight);
@@ -166,19 +168,21 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     for (const HiddenNodes& hidden : groups.all()) hidden_moment += hidden.first[c];
     const Real weight_moment = static_cast<Real>(-hidden_moment);
     g.centre[c] += weight_moment * per_weight;
-    g.bulk_moment[c] = moment[c][node_lane::mass];
+    g.bulk_moment[c] = g.pulled_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill] - g.fill * weight_moment;
     g.moment[c] = sum_of_quads<Real>(moment[c]);
     mean_change[c] +=
         static_cast<double>(sum[change + c]) / std::max(static_cast<double>(weight), enough_seen);
   }
+  g.pulled = tile.eased ? spline_sum_of_quads<3, 9>(pulled, p.x, g.pulled_moment) : sum.quad(0);
 
   // Hidden nodes: the point's own field, mirrored at the planes between.
   const double h = config_.spacing;
   Mat3 C;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) C(r, c) = static_cast<double>(p.C[c][r]);
-  const double share = static_cast<double>(step_.relax_velocity) * mean_bulk;
+  const double pull = g.bulk > 0 ? static_cast<double>(g.pulled[3] / g.bulk) : 1.0;
+  const double share = static_cast<double>(step_.relax_velocity) * mean_bulk * pull;
   for (const HiddenNodes& hidden : groups.all()) {
     Vec3 at = Vec3::Zero();                // mirrored node, constant
     Mat3 at_slope = h * Mat3::Identity();  // and per d
@@ -206,15 +210,17 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
       }
     }
     const Vec3 whole = ghost_change + mean_bulk * ghost;
-    const Vec3 velocity_sum = mean_bulk * (hidden.w * ghost + ghost_slope * hidden.d());
+    const Vec3 pulled_sum = pull * mean_bulk * (hidden.w * ghost + ghost_slope * hidden.d());
     const Mat3 moments = whole * hidden.d().transpose() + mean_bulk * ghost_slope * hidden.dd();
     for (int r = 0; r < 3; ++r) {
       g.change[r] += static_cast<Real>(hidden.w * ghost_change[r]);
-      g.velocity[r] += static_cast<Real>(velocity_sum[r]);
+      g.pulled[r] += static_cast<Real>(pulled_sum[r]);
       g.bulk_moment[r] += static_cast<Real>(mean_bulk * hidden.first[r]);
+      g.pulled_moment[r] += static_cast<Real>(pull * mean_bulk * hidden.first[r]);
       for (int c = 0; c < 3; ++c) g.moment[c][r] += static_cast<Real>(moments(r, c));
     }
     g.bulk += static_cast<Real>(hidden.w * mean_bulk);
+    g.pulled[3] += static_cast<Real>(pull * hidden.w * mean_bulk);
     const double m = static_cast<double>(p.mass());
     share_out(around, hidden, -m * (ghost_change + share * (ghost - v)), -m * share * (ghost_slope - h * C),
               impulses);

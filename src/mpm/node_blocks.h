@@ -23,7 +23,7 @@ constexpr int fill = 7;        ///< volume [m3] -> over the open space
 constexpr int centre = 8;      ///< sum m (x_p - x_i) -> mean of it [cells]
 constexpr int dilation = 11;   ///< sum m (J - 1) -> mean
 constexpr int gradient = 12;   ///< sum V 4/h2 w d [m2] -> change of v by pressure alone [m/s]
-constexpr int near_wall = 15;  ///< mass of points beside walls -> its share -> mass [kg]
+constexpr int near_wall = 15;  ///< mass of points beside walls -> its share -> pull on its points, 0 to 1
 }  // namespace node_lane
 
 template <class Real>

@@ -38,6 +38,33 @@ template <int row, int layer, class Real>
   moment[2] = (plain[2] - plain[0]) - offset[2] * whole;
 }
 
+/// sum w quad; moment[c] = sum w d_c of its fourth number alone, with d in cells from the point.
+/// @param corner, offset  as above
+template <int row, int layer, class Real>
+[[gnu::always_inline]] inline Quad<Real> spline_sum_of_quads(const Quad<Real>* corner,
+                                                             const Quad<Real>& offset, Real (&moment)[3]) {
+  const SplineWeights<Real> x(offset[0]), y(offset[1]), z(offset[2]);
+  Quad<Real> plain[3], by_x[3];
+  Real by_y[3];
+  for (int k = 0; k < 3; ++k) {
+    Quad<Real> line[3], line_x[3];
+    for (int j = 0; j < 3; ++j) {
+      const Quad<Real>* node = corner + row * j + layer * k;
+      const Quad<Real> low = x.w[0] * node[0], high = x.w[2] * node[2];
+      line[j] = y.w[j] * ((low + high) + x.w[1] * node[1]);
+      line_x[j] = high - low;
+    }
+    plain[k] = z.w[k] * ((line[0] + line[2]) + line[1]);
+    by_y[k] = line[2][3] - line[0][3];
+    by_x[k] = y.w[0] * line_x[0] + y.w[1] * line_x[1] + y.w[2] * line_x[2];
+  }
+  const Quad<Real> whole = (plain[0] + plain[2]) + plain[1];
+  moment[0] = z.w[0] * by_x[0][3] + z.w[1] * by_x[1][3] + z.w[2] * by_x[2][3] - offset[0] * whole[3];
+  moment[1] = z.w[0] * by_y[0] + z.w[1] * by_y[1] + z.w[2] * by_y[2] - offset[1] * whole[3];
+  moment[2] = (plain[2][3] - plain[0][3]) - offset[2] * whole[3];
+  return whole;
+}
+
 /// Both quads of eight lanes, added up.
 template <class Real>
 Quad<Real> sum_of_quads(const typename Lanes<Real>::Half& x) {

@@ -10,9 +10,31 @@ namespace sluice {
 namespace {
 /// Fill over which a node turns from spray (own velocities) to bulk (shared velocity).
 constexpr double spray_below = 0.1, bulk_above = 0.3;
-/// Fill over which water under pressure ceases to be stopped by walls at once: it has the time in which
-/// points follow the grid, for its pressure stops it too.
+/// Fill over which water gets time: under pressure it ceases to be stopped by walls at once, for its pressure
+/// stops it too, and where it accelerates its nodes' pull is eased.
 constexpr double eased_above = 0.6, eased_wholly = 0.9;
+/// Acceleration at which a full node's pull on its points is halved [c2 / h]: it takes a pressure that
+/// compresses the water by this much from one node to the next. Below a thirtieth of it all of the pull
+/// stays.
+constexpr double halved_at = 3e-4, eased_from = halved_at / 30;
+
+double share_full(double fill) {
+  return std::clamp((fill - eased_above) / (eased_wholly - eased_above), 0.0, 1.0);
+}
+
+/// Points of one cell differ by more than an affine field where the flow turns or narrows within a few cells,
+/// and the nodes' pull evens that out as a viscosity of the order of 0.1 h c does. It is there against noise
+/// in still water; where water accelerates it only brakes. As a factor of a node's pull it moves no net
+/// momentum.
+/// @param change  of v in the step [m/s];  @param speed_for_half  c2 dt / h times `halved_at`
+/// @return  above 0
+double pull_of(const Vec3& change, double fill, double speed_for_half) {
+  constexpr double from = eased_from / halved_at;
+  const double strength =
+      std::max(0.0, change.squaredNorm() / (speed_for_half * speed_for_half) - from * from);
+  const double full = share_full(fill);
+  return 1 - full + full / (1 + strength);
+}
 
 /// Share of the wall's area that a node at s cells from it stands for, so that the nodes' and their hidden
 /// mirror's impulses add up to the stress on the area. Films thinner than a cell spread over the nodes by
@@ -105,6 +127,7 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
   const Real gravity_change[3] = {static_cast<Real>(step_.dt * gravity_.x()),
                                   static_cast<Real>(step_.dt * gravity_.y()),
                                   static_cast<Real>(step_.dt * gravity_.z())};
+  const double speed_for_half = halved_at * step_.dt * sound_speed_ * sound_speed_ / h;
   Node* nodes = grid_.nodes(slot);
   for (int n = 0; n < BlockLayout::nodes; ++n) {
     Node& node = nodes[n];
@@ -135,14 +158,14 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
         close_pressure(node, water, planes, at, impulses);
       }
     }
-    const Real node_mass = node[mass];
     for (int r = 0; r < 3; ++r)
       node[gradient + r] = node[change + r] - gravity_change[r] - static_cast<Real>(pushed[r]);
     if (!planes.empty()) hold_at_walls(node, water, cut_off, planes, at, impulses);
     const Real bulk = std::clamp((node[fill] - spray) * ramp, Real(0), Real(1));
     for (int r = 0; r < 3; ++r) node[velocity + r] *= bulk;
     node[mass] = bulk;
-    node[near_wall] = node_mass;
+    node[near_wall] =
+        static_cast<Real>(pull_of(vector_at(node, change), static_cast<double>(node[fill]), speed_for_half));
   }
 }
 
@@ -195,10 +218,7 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
   const double density = water.volume > 0 ? m / water.volume : config_.fluid.density;
   const bool no_slip = config_.wall_slip == WallSlip::no_slip;
   const double rest_density = density * (1 + static_cast<double>(node[dilation]));
-  const double full =
-      pressed ? std::clamp((static_cast<double>(node[fill]) - eased_above) / (eased_wholly - eased_above),
-                           0.0, 1.0)
-              : 0.0;
+  const double full = pressed ? share_full(static_cast<double>(node[fill])) : 0.0;
   // In corners and gaps, and beside bodies that water pushes, it must stop at once.
   const bool alone = planes.size() == 1 && poses_.free_body(planes[0].wall) < 0;
   const double in_step = alone ? 1 - full * (1 - static_cast<double>(step_.relax_velocity)) : 1.0;
