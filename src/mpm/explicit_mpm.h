@@ -99,8 +99,8 @@ class ExplicitMpm final : public FluidSystem {
     Node node[BlockLayout::tile_nodes];
     Real void_fraction[BlockLayout::tile_nodes];
     Real least_fill[BlockLayout::nodes];     ///< over the 27 nodes of each cell
-    bool eased;                              ///< some node pulls less than wholly; only then is `pulled` set
-    Vector pulled[BlockLayout::tile_nodes];  ///< pull times b v and b
+    bool eased[BlockLayout::nodes];          ///< some node of the cell pulls less than wholly
+    Vector pulled[BlockLayout::tile_nodes];  ///< pull times b v and b; set where a cell is eased
   };
   /// What one block's grid_to_points found.
   struct BlockReport {

@@ -17,6 +17,19 @@ constexpr double spray_fill = 0.3;       ///< below this the water has no pressu
 constexpr double largest_shift = 0.02;   ///< [cells]
 constexpr double largest_move = 0.5;     ///< per step and axis: the reach of a stencil's walls [cells]
 constexpr double largest_mach = 0.32;    ///< v/c at which the density error v2/(2 c2) is 5 %
+
+/// Least value over the 27 nodes of each cell, axis by axis.
+/// @param of  each node of a tile, 6 x 6 x 6
+template <class Real>
+void least_of_cells(const Real* of, Real* least) {
+  Real by_x[6 * 6 * 4], by_y[6 * 4 * 4];
+  const auto least_of_three = [](const Real* x, int step) { return std::min({x[0], x[step], x[2 * step]}); };
+  for (int row = 0; row < 36; ++row)
+    for (int i = 0; i < 4; ++i) by_x[4 * row + i] = least_of_three(of + 6 * row + i, 1);
+  for (int layer = 0; layer < 6; ++layer)
+    for (int n = 0; n < 16; ++n) by_y[16 * layer + n] = least_of_three(by_x + 24 * layer + n, 4);
+  for (int n = 0; n < 64; ++n) least[n] = least_of_three(by_y + n, 16);
+}
 }  // namespace
 
 template <class Real>
@@ -51,21 +64,23 @@ void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const
       tile.void_fraction[to + n] = 1 - ramp * (1 - voids[from + n]);
     }
   });
-  tile.eased = std::any_of(std::begin(tile.node), std::end(tile.node), [](const Node& n) {
-    return n[node_lane::mass] > 0 && n[node_lane::near_wall] < 1;
-  });
-  if (tile.eased)
-    for (int n = 0; n < BlockLayout::tile_nodes; ++n)
-      tile.pulled[n] = tile.node[n][node_lane::near_wall] * tile.node[n].quad(0);
-  for (int local = 0; local < BlockLayout::nodes; ++local) {
-    const int corner = (local & 3) + 6 * ((local >> 2) & 3) + 36 * (local >> 4);
-    Real least = tile.node[corner][node_lane::fill];
-    for (int k = 0; k < 3; ++k)
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i)
-          least = std::min(least, tile.node[corner + i + 6 * j + 36 * k][node_lane::fill]);
-    tile.least_fill[local] = least;
+  Real pull[BlockLayout::tile_nodes], fill[BlockLayout::tile_nodes];
+  Real least_pull = 1;
+  for (int n = 0; n < BlockLayout::tile_nodes; ++n) {
+    fill[n] = tile.node[n][node_lane::fill];
+    const Real own = tile.node[n][node_lane::near_wall];
+    pull[n] = own > 0 ? own : Real(1);
+    least_pull = std::min(least_pull, pull[n]);
   }
+  least_of_cells(fill, tile.least_fill);
+  if (least_pull == 1) {
+    std::fill_n(tile.eased, BlockLayout::nodes, false);
+    return;
+  }
+  Real least[BlockLayout::nodes];
+  least_of_cells(pull, least);
+  for (int cell = 0; cell < BlockLayout::nodes; ++cell) tile.eased[cell] = least[cell] < 1;
+  for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile.pulled[n] = pull[n] * tile.node[n].quad(0);
 }
 
 template <class Real>
@@ -83,8 +98,8 @@ void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, 
     g.bulk_moment[c] = g.pulled_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill];
   }
-  g.pulled =
-      tile.eased ? spline_sum_of_quads<6, 36>(tile.pulled + corner, p.x, g.pulled_moment) : sum.quad(0);
+  g.pulled = tile.eased[local] ? spline_sum_of_quads<6, 36>(tile.pulled + corner, p.x, g.pulled_moment)
+                               : sum.quad(0);
   g.bulk = sum[node_lane::mass];
   g.fill = sum[fill];
   g.dilation = sum[dilation];

@@ -139,7 +139,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     const Real shows = hidden ? Real(0) : Real(1);
     for (int r = 0; r < Node::registers; ++r)
       visible[n].part[r] = shows * (node.part[r] * kept.part[r] + lent.part[r]);
-    if (tile.eased) pulled[n] = shows * tile.pulled[index];
+    if (tile.eased[local]) pulled[n] = shows * tile.pulled[index];
     if (!hidden) least = std::min(least, node[fill]);
   }
   Node sum;
@@ -174,7 +174,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     mean_change[c] +=
         static_cast<double>(sum[change + c]) / std::max(static_cast<double>(weight), enough_seen);
   }
-  g.pulled = tile.eased ? spline_sum_of_quads<3, 9>(pulled, p.x, g.pulled_moment) : sum.quad(0);
+  g.pulled = tile.eased[local] ? spline_sum_of_quads<3, 9>(pulled, p.x, g.pulled_moment) : sum.quad(0);
 
   // Hidden nodes: the point's own field, mirrored at the planes between.
   const double h = config_.spacing;

@@ -16,7 +16,7 @@ constexpr double eased_above = 0.6, eased_wholly = 0.9;
 /// Acceleration at which a full node's pull on its points is halved [c2 / h]: it takes a pressure that
 /// compresses the water by this much from one node to the next. Below a thirtieth of it all of the pull
 /// stays.
-constexpr double halved_at = 3e-4, eased_from = halved_at / 30;
+constexpr double halved_at = 2e-4, eased_from = halved_at / 4;
 
 double share_full(double fill) {
   return std::clamp((fill - eased_above) / (eased_wholly - eased_above), 0.0, 1.0);
