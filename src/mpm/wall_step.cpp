@@ -164,8 +164,13 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
     const Real bulk = std::clamp((node[fill] - spray) * ramp, Real(0), Real(1));
     for (int r = 0; r < 3; ++r) node[velocity + r] *= bulk;
     node[mass] = bulk;
-    node[near_wall] =
-        static_cast<Real>(pull_of(vector_at(node, change), static_cast<double>(node[fill]), speed_for_half));
+    // Bodies that water pushes drift by themselves where it may be pulled less.
+    const bool beside_body = std::any_of(planes.begin(), planes.end(), [&](const WallPlane& plane) {
+      return poses_.free_body(plane.wall) >= 0;
+    });
+    const double pull =
+        beside_body ? 1 : pull_of(vector_at(node, change), static_cast<double>(node[fill]), speed_for_half);
+    node[near_wall] = static_cast<Real>(pull);
   }
 }
 
