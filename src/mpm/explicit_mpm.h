@@ -135,6 +135,7 @@ class ExplicitMpm final : public FluidSystem {
     Real bulk, fill, dilation, least_fill;
     Real bulk_moment[3], fill_moment[3], pulled_moment[3];
     bool knows_all;       ///< of C; else `kept` stays
+    bool beside_wall;     ///< walls hide nodes
     bool in_gap = false;  ///< between walls that all but touch
     Real kept[6];         ///< of C: I - 4 sum b w d d^T, as xx yy zz yz xz xy
   };

@@ -14,9 +14,21 @@ namespace {
 constexpr double full_for_anchor = 0.8;  ///< least fill around a point for the density to pull at J
 constexpr double full_for_shift = 0.95;  ///< least fill for the points to be spread evenly
 constexpr double spray_fill = 0.3;       ///< below this the water has no pressure
-constexpr double largest_shift = 0.02;   ///< [cells]
-constexpr double largest_move = 0.5;     ///< per step and axis: the reach of a stencil's walls [cells]
-constexpr double largest_mach = 0.32;    ///< v/c at which the density error v2/(2 c2) is 5 %
+constexpr double open_below = 0.5, held_above = 0.8;  ///< least fill around a point for tension: none, all
+constexpr double largest_stretch = 2e-3;              ///< J - 1 of water under tension
+constexpr double largest_shift = 0.02;                ///< [cells]
+constexpr double largest_move = 0.5;   ///< per step and axis: the reach of a stencil's walls [cells]
+constexpr double largest_mach = 0.32;  ///< v/c at which the density error v2/(2 c2) is 5 %
+
+/// How far water may stretch before it opens. Air reaches it at a free surface, where it pulls at nothing; a
+/// body of water that is stretched holds together against the air's pressure and grows thinner. From walls it
+/// may part.
+/// @param least_fill  of the nodes around
+template <class Real>
+Real stretch_held(Real least_fill) {
+  const Real ramp = static_cast<Real>(1 / (held_above - open_below));
+  return Real(largest_stretch) * std::clamp((least_fill - Real(open_below)) * ramp, Real(0), Real(1));
+}
 
 /// Least value over the 27 nodes of each cell, axis by axis.
 /// @param of  each node of a tile, 6 x 6 x 6
@@ -104,6 +116,7 @@ void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, 
   g.fill = sum[fill];
   g.dilation = sum[dilation];
   g.least_fill = tile.least_fill[local];
+  g.beside_wall = false;
   gather_kept(p, local, tile, g);
 }
 
@@ -179,7 +192,12 @@ auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
   const Real mean = g.dilation - dot3(slope, g.centre);
   Real e = p.dilation() + step_.relax_dilation * (mean - p.dilation());
   e += (1 + e) * step_.dt_real * (C[0][0] + C[1][1] + C[2][2]);
-  if (g.least_fill > Real(full_for_anchor)) e -= (1 + e) * step_.anchor * (g.fill - 1);
+  if (g.least_fill > Real(full_for_anchor)) {
+    // Where it is too thin the flow has stretched it, or only the points' places say so: those make no
+    // tension.
+    const Real anchored = e - (1 + e) * step_.anchor * (g.fill - 1);
+    e = config_.keep_tension || anchored < e ? anchored : std::max(e, std::min(anchored, Real(0)));
+  }
   if (g.least_fill > Real(full_for_shift)) {
     Vector s = {g.fill_moment[0], g.fill_moment[1], g.fill_moment[2], 0};
     s *= -4 * step_.shift;
@@ -188,7 +206,10 @@ auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
     moved += s;
     e += dot3(s, slope);
   }
-  if (!config_.keep_tension) e = g.fill < Real(spray_fill) ? Real(0) : std::min(e, Real(0));
+  if (!config_.keep_tension) {
+    const Real stretch = g.beside_wall ? Real(0) : stretch_held(g.least_fill);
+    e = g.fill < Real(spray_fill) ? Real(0) : std::min(e, stretch);
+  }
   p.x[3] = e;
   return moved;
 }

@@ -149,6 +149,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   // Means of what only they know. All of C is taken anew: nothing damps the rest here, and in a wedge it
   // would feed back through mirrored nodes.
   g.knows_all = true;
+  g.beside_wall = true;
   const bool sees = around.seen.hidden != all_nodes;
   const Real weight = sees ? sum[node_lane::near_wall] : Real(0);
   const Real per_weight = weight > 0 ? 1 / weight : Real(0);

@@ -73,7 +73,8 @@ TEST_P(FreeFall, AsOneSpeedLeavesTheShapeAlone) {
   for (std::size_t i = 0; i < after.count(); ++i)
     worst = std::max(worst, (after.x[i] - before.x[i] - moved).norm());
   EXPECT_LT(worst, 5e-3 * h);  // points are spread evenly as they pass the grid
-  for (std::size_t i = 0; i < after.count(); ++i) ASSERT_EQ(after.J[i] <= 1.0, true);
+  // Nothing stretches it, to the rounding of single precision.
+  EXPECT_LT(*std::max_element(after.J.begin(), after.J.end()), 1 + 1e-7);
 }
 
 INSTANTIATE_TEST_SUITE_P(InBothPrecisions, FreeFall,
