@@ -188,8 +188,6 @@ class ExplicitMpm final : public FluidSystem {
   void gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, const NodeTile& tile,
                         Gathered& g, WallImpulses& impulses) const;
   void gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
-  template <int row, int layer>
-  void gather_pulled(const Vector* corner, const Point& p, Gathered& g) const;
   void gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   Real gather_void_fraction(const Point& p, int local, const NodeTile& tile) const;
   Vector update(Point& p, const Gathered& g) const;

@@ -14,7 +14,7 @@ constexpr double spray_below = 0.1, bulk_above = 0.3;
 /// stops it too, and where it accelerates its nodes' pull is eased.
 constexpr double eased_above = 0.6, eased_wholly = 0.9;
 /// Acceleration at which a full node's pull on its points is halved [c2 / h]: it takes a pressure that
-/// compresses the water by this much from one node to the next. Below a thirtieth of it all of the pull
+/// compresses the water by this much from one node to the next. Below a quarter of it all of the pull
 /// stays.
 constexpr double halved_at = 2e-4, eased_from = halved_at / 4;
 
