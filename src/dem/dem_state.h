@@ -44,19 +44,51 @@ struct alignas(64) Push {
   double unused_too = 0;
 };
 
+/// What pairs read of a rock, as rows that lanes load whole: where it is ...
+struct RockPlaceRow {
+  Vec3 x;         ///< [m]
+  double radius;  ///< bounding [m]
+};
+/// ... and, only where it touches, how it moves.
+struct alignas(64) RockMotionRow {
+  Vec3 v;       ///< at the half step [m/s]
+  double mass;  ///< [kg]
+  Vec3 w;       ///< at the half step [rad/s]
+  double size;  ///< [m]
+};
+
 /// A listed pair of a chunk whose bounding spheres meet.
 struct Candidate {
   Vec3 separation;  ///< centre of j (its nearest image) - centre of i [m]
   std::uint32_t pair, i, j;
-  std::uint32_t slot;  ///< of the reaction on j; no_slot where j belongs to the chunk
-  static constexpr std::uint32_t no_slot = 0xffffffff;
+};
+
+/// Listed pairs of spheres of a chunk that meet, a column a quantity, in the order of the list.
+struct MeetingSpheres {
+  static constexpr std::size_t spare = 8;  ///< places behind the last that lanes may overwrite
+
+  std::size_t count = 0;
+  std::vector<double> x, y, z;             ///< centre of j (its nearest image) - centre of i [m]
+  std::vector<double> radius_i, radius_j;  ///< [m]
+  std::vector<std::uint32_t> pair, i, j;
+
+  void make_room(std::size_t most);
+  void add(const Candidate& candidate, double radius_of_i, double radius_of_j);
+  /// Repeats the last in the spare places.
+  void repeat_last();
+  std::size_t memory_bytes() const {
+    return (x.capacity() + y.capacity() + z.capacity() + radius_i.capacity() + radius_j.capacity()) *
+               sizeof(double) +
+           (pair.capacity() + i.capacity() + j.capacity()) * sizeof(std::uint32_t);
+  }
+  Candidate candidate(std::size_t k) const { return {{x[k], y[k], z[k]}, pair[k], i[k], j[k]}; }
 };
 
 /// What one chunk needs while its contacts are looked at; one a thread.
 struct PairScratch {
   std::size_t begin = 0;                  ///< first rock of the chunk
   std::vector<Push> push;                 ///< on the rocks of the chunk
-  std::vector<Candidate> spheres;         ///< all of these touch
+  MeetingSpheres spheres;                 ///< all of these touch
   std::vector<Candidate> shaped;          ///< at least one is a superquadric
   std::vector<BodyPair> shaped_pairs;     ///< the same
   std::vector<ContactGeometry> geometry;  ///< of those
@@ -133,7 +165,9 @@ struct DemSystem::Implementation {
   Rocks rocks;
   std::vector<Vec3> angular;        ///< angular momentum of rocks [kg m2/s]; empty where all are spheres
   std::vector<Vec3> per_inertia;    ///< one over the principal inertia [1/(kg m2)]; empty likewise
-  std::vector<Vec3> force, torque;  ///< of contacts, last step
+  std::vector<RockPlaceRow> places;    ///< of this step
+  std::vector<RockMotionRow> motions;  ///< likewise
+  std::vector<Vec3> force, torque;     ///< of contacts, last step
   std::vector<Vec3> fluid_force, fluid_torque;  ///< empty until set
   std::vector<Vec3> listed_at;                  ///< where each rock was when the pairs were listed [m]
   std::vector<double> margin;                   ///< how far it may go from there [m]
@@ -218,9 +252,11 @@ struct DemSystem::Implementation {
   void take_half_of_work(double dt);
   void kick(std::size_t i, double seconds);
 
-  void find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t end, double dt);
+  void keep_rows(std::size_t begin, std::size_t end);
+  void find_spheres(DemChunk& chunk, PairScratch& scratch, std::size_t end);
+  void find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t end, double dt);
   bool keeps_clear(std::size_t p, std::size_t i, std::size_t j, double dt);
-  void pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c, std::size_t end, const StepTime& time);
+  void pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t end, const StepTime& time);
   BodyPair bodies_of(const Candidate& candidate) const;
   void solve_shaped(DemChunk& chunk, PairScratch& scratch);
   void find_repeated(PairScratch& scratch) const;

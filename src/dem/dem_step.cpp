@@ -105,6 +105,8 @@ void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
     if (turned_shapes.size() < count()) turned_shapes.resize(count());
     rim_speed.resize(count());
   }
+  places.resize(count());
+  motions.resize(count());
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
     if (goes_on) take_reactions(c);
     for (std::size_t i = begin; i < end; ++i) {
@@ -112,6 +114,7 @@ void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
       begin_step(chunks[c], i, time);
     }
     if (!only_spheres) turn_rocks(begin, end, time.dt);
+    keep_rows(begin, end);
     if (!fluid_force.empty()) count_fluid(chunks[c], begin, end, time.dt);
   });
 }
@@ -184,7 +187,7 @@ void DemSystem::Implementation::contacts(const StepTime& time) {
                          scratch.push.assign(end - begin, {});
                          std::fill(reactions.begin() + pairs.out_start[c],
                                    reactions.begin() + pairs.out_start[c + 1], Push{});
-                         pairs_of(chunks[c], scratch, c, end, time);
+                         pairs_of(chunks[c], scratch, end, time);
                          for (std::size_t i = begin; i < end; ++i) {
                            force[i] = scratch.push[i - begin].force;
                            torque[i] = scratch.push[i - begin].torque;

@@ -3,6 +3,7 @@
 /// the other, in the order of the list.
 
 #include <algorithm>
+#include <cstring>
 
 #include "dem/dem_state.h"
 #include "dem/lane_rows.h"
@@ -18,7 +19,6 @@ using lanes::kLanes;
 using lanes::LaneIndices;
 using lanes::LaneMask;
 using lanes::Lanes;
-using lanes::load_each;
 using lanes::load_triples;
 using lanes::select;
 using LaneTriple = lanes::Triple<Lanes>;
@@ -31,9 +31,16 @@ struct Group {
   LaneTriple separation;
 };
 
+LaneMask lanes_below(std::size_t count) {
+  LaneMask real;
+  for (std::size_t k = 0; k < kLanes; ++k) real[k] = k < count ? -1 : 0;
+  return real;
+}
+
 Group gather(std::span<const Candidate> candidates) {
   Group g;
-  g.count = candidates.size();
+  g.count = std::min<std::size_t>(kLanes, candidates.size());
+  g.real = lanes_below(g.count);
   lanes::Rows rows;
   for (std::size_t k = 0; k < kLanes; ++k) {
     const Candidate& candidate = candidates[std::min(k, g.count - 1)];
@@ -41,10 +48,40 @@ Group gather(std::span<const Candidate> candidates) {
     g.i[k] = candidate.i;
     g.j[k] = candidate.j;
     rows[k] = candidate.separation.data();
-    g.real[k] = k < g.count ? -1 : 0;
   }
   g.separation = load_triples(rows);
   return g;
+}
+
+Lanes lanes_at(const std::vector<double>& column, std::size_t first) {
+  Lanes x;
+  std::memcpy(&x, &column[first], sizeof x);
+  return x;
+}
+
+Group gather(const MeetingSpheres& spheres, std::size_t first) {
+  Group g;
+  g.count = std::min<std::size_t>(kLanes, spheres.count - first);
+  g.real = lanes_below(g.count);
+  std::memcpy(g.pair.data(), &spheres.pair[first], sizeof g.pair);
+  std::memcpy(g.i.data(), &spheres.i[first], sizeof g.i);
+  std::memcpy(g.j.data(), &spheres.j[first], sizeof g.j);
+  g.separation = {lanes_at(spheres.x, first), lanes_at(spheres.y, first), lanes_at(spheres.z, first)};
+  return g;
+}
+
+/// What lanes know of one body each.
+struct LaneMotion {
+  LaneTriple v, w;
+  Lanes mass, size;
+};
+
+LaneMotion load_motions(const std::vector<RockMotionRow>& motions, const LaneIndices& at) {
+  static_assert(sizeof(RockMotionRow) == 8 * sizeof(double));
+  lanes::Rows rows;
+  for (std::size_t k = 0; k < kLanes; ++k) rows[k] = motions[at[k]].v.data();
+  const lanes::Columns c = lanes::load_columns(rows);
+  return {{c[0], c[1], c[2]}, {c[4], c[5], c[6]}, c[3], c[7]};
 }
 
 /// Where the bodies of each lane touch.
@@ -118,8 +155,9 @@ struct DemSystem::Implementation::LaneContacts {
     return law;
   }
 
-  LaneTouch spheres(const Group& g, const Lanes& mass_a, const Lanes& mass_b) const {
-    const Lanes radius_a = load_each(s.rocks.radius, g.i), radius_b = load_each(s.rocks.radius, g.j);
+  LaneTouch spheres(const Group& g, std::size_t first, const Lanes& mass_a, const Lanes& mass_b) const {
+    const Lanes radius_a = lanes_at(scratch.spheres.radius_i, first);
+    const Lanes radius_b = lanes_at(scratch.spheres.radius_j, first);
     const Lanes distance = lanes::root(dot(g.separation, g.separation));
     const LaneMask apart = distance > 0.0;
     const Lanes inverse = 1.0 / select(apart, distance, all_lanes(1.0));
@@ -179,27 +217,26 @@ struct DemSystem::Implementation::LaneContacts {
     return share;
   }
 
-  void give(const Group& g, std::size_t first, std::span<const Candidate> candidates, const LaneTriple& force,
-            const LaneTriple& torque_a, const LaneTriple& torque_b) {
+  void give(const Group& g, const LaneTriple& force, const LaneTriple& torque_a, const LaneTriple& torque_b) {
     std::array<Push*, kLanes> on_a{}, on_b{};
     for (std::size_t k = 0; k < g.count; ++k) {
-      const Candidate& candidate = candidates[first + k];
-      on_a[k] = &scratch.push[candidate.i - scratch.begin];
-      on_b[k] = candidate.slot == Candidate::no_slot ? &scratch.push[candidate.j - scratch.begin]
-                                                     : &s.reactions[candidate.slot];
-      s.pairs.touching[candidate.pair] = 1;
+      const std::uint32_t slot = s.pairs.slot[g.pair[k]];
+      on_a[k] = &scratch.push[g.i[k] - scratch.begin];
+      on_b[k] = slot == PairList::no_slot ? &scratch.push[g.j[k] - scratch.begin] : &s.reactions[slot];
+      s.pairs.touching[g.pair[k]] = 1;
     }
     add_rows(force, torque_a, on_a, g.count);
     add_rows({-force.x, -force.y, -force.z}, torque_b, on_b, g.count);
   }
 
-  void touch(std::span<const Candidate> candidates, bool are_shaped) {
-    for (std::size_t first = 0; first < candidates.size(); first += kLanes) {
-      const Group g =
-          gather(candidates.subspan(first, std::min<std::size_t>(kLanes, candidates.size() - first)));
-      const Lanes mass_a = load_each(s.rocks.mass, g.i), mass_b = load_each(s.rocks.mass, g.j);
-      const Lanes size_a = load_each(s.rocks.size, g.i), size_b = load_each(s.rocks.size, g.j);
-      const LaneTouch touch = are_shaped ? shaped(g, first, mass_a, mass_b) : spheres(g, mass_a, mass_b);
+  void touch(std::size_t contacts, bool are_shaped) {
+    for (std::size_t first = 0; first < contacts; first += kLanes) {
+      const Group g = are_shaped ? gather(std::span<const Candidate>(scratch.shaped).subspan(first))
+                                 : gather(scratch.spheres, first);
+      const LaneMotion a = load_motions(s.motions, g.i), b = load_motions(s.motions, g.j);
+      const Lanes &mass_a = a.mass, &mass_b = b.mass, &size_a = a.size, &size_b = b.size;
+      const LaneTouch touch =
+          are_shaped ? shaped(g, first, mass_a, mass_b) : spheres(g, first, mass_a, mass_b);
       const bool copies = are_shaped && s.has_blocky;
       note_overlaps(g, touch, size_a, size_b,
                     copies ? std::span<const std::uint8_t>(scratch.repeated).subspan(first, g.count)
@@ -217,9 +254,7 @@ struct DemSystem::Implementation::LaneContacts {
                                              law.friction,
                                              touch.mass_effective,
                                              s.config.end_of_contact == EndOfContact::no_tension};
-      const LaneTriple w_a = load_triples(s.rocks.w, g.i), w_b = load_triples(s.rocks.w, g.j);
-      const LaneTriple velocity = load_triples(s.rocks.v, g.i) - load_triples(s.rocks.v, g.j) +
-                                  cross(w_a, touch.arm_a) - cross(w_b, touch.arm_b);
+      const LaneTriple velocity = a.v - b.v + cross(a.w, touch.arm_a) - cross(b.w, touch.arm_b);
       LinearContact<Lanes> contact{touch.normal, touch.overlap, velocity,
                                    load_triples(s.pairs.spring, g.pair)};
       LinearForce<Lanes> f = linear_contact(constants, time.dt, contact);
@@ -234,7 +269,7 @@ struct DemSystem::Implementation::LaneContacts {
         const RollingResistance<Lanes> rolling =
             rolling_resistance<Lanes>(law.rolling, radius_a * radius_b / (radius_a + radius_b), k_n,
                                       about_a * about_b / (about_a + about_b), f.normal);
-        const LaneTriple spin = w_a - w_b;
+        const LaneTriple spin = a.w - b.w;
         LaneTriple turned = load_triples(s.pairs.turned, g.pair);
         const LaneTriple moment = rolling_moment(rolling, spin, time.dt, turned);
         lanes::store_triples(turned, s.pairs.turned, g.pair, g.count);
@@ -251,7 +286,7 @@ struct DemSystem::Implementation::LaneContacts {
         lost_friction *= share;
         f.elastic *= share;
       }
-      give(g, first, candidates, f.force, torque_a, torque_b);
+      give(g, f.force, torque_a, torque_b);
       tallies.lost_normal += select(g.real, f.lost_normal, Lanes{});
       tallies.lost_friction += select(g.real, lost_friction, Lanes{});
       tallies.elastic += select(g.real, f.elastic, Lanes{});
@@ -261,8 +296,8 @@ struct DemSystem::Implementation::LaneContacts {
 
 void DemSystem::Implementation::touch_in_lanes(DemChunk& chunk, PairScratch& scratch, const StepTime& time) {
   LaneContacts contacts{*this, chunk, scratch, time};
-  contacts.touch(scratch.spheres, false);
-  contacts.touch(scratch.shaped, true);
+  contacts.touch(scratch.spheres.count, false);
+  contacts.touch(scratch.shaped.size(), true);
   chunk.lost_normal += sum_of(contacts.tallies.lost_normal);
   chunk.lost_friction += sum_of(contacts.tallies.lost_friction);
   chunk.elastic += sum_of(contacts.tallies.elastic);

@@ -16,12 +16,11 @@ using Rows = std::array<const double*, kLanes>;
 /// Eight doubles of each lane's row, as columns.
 using Columns = std::array<Lanes, 8>;
 
-/// base[at[lane]] of each lane.
-inline Lanes load_each(const std::vector<double>& base, const LaneIndices& at) {
-  Lanes out;
-  for (std::size_t k = 0; k < kLanes; ++k) out[k] = base[at[k]];
-  return out;
-}
+/// Four doubles of each lane's row, as columns.
+struct Quads {
+  Triple<Lanes> first;
+  Lanes last;
+};
 
 #if defined(__AVX512F__)
 
@@ -50,21 +49,56 @@ inline void store_columns(Columns c, const std::array<double*, kLanes>& rows, st
   for (std::size_t k = 0; k < count; ++k) std::memcpy(rows[k], &c[k], sizeof(Lanes));
 }
 
-/// Three doubles of each lane's row.
-inline Triple<Lanes> load_triples(const Rows& rows) {
-  using Half = double __attribute__((vector_size(32)));
-  std::array<Lanes, 4> z;  // rows k and k + 4 side by side
-  for (std::size_t k = 0; k < 4; ++k) {
-    const Half low = _mm256_maskz_loadu_pd(7, rows[k]), high = _mm256_maskz_loadu_pd(7, rows[k + 4]);
-    z[k] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
-  }
+using HalfLanes = double __attribute__((vector_size(32)));
+
+/// Four rows a side, rows k and k + 4 in one register.
+inline Quads turn(const std::array<Lanes, 4>& z) {
   const Lanes xz_01 = __builtin_shufflevector(z[0], z[1], 0, 8, 2, 10, 4, 12, 6, 14);
   const Lanes xz_23 = __builtin_shufflevector(z[2], z[3], 0, 8, 2, 10, 4, 12, 6, 14);
-  const Lanes y_01 = __builtin_shufflevector(z[0], z[1], 1, 9, 3, 11, 5, 13, 7, 15);
-  const Lanes y_23 = __builtin_shufflevector(z[2], z[3], 1, 9, 3, 11, 5, 13, 7, 15);
-  return {__builtin_shufflevector(xz_01, xz_23, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(y_01, y_23, 0, 1, 8, 9, 4, 5, 12, 13),
-          __builtin_shufflevector(xz_01, xz_23, 2, 3, 10, 11, 6, 7, 14, 15)};
+  const Lanes yw_01 = __builtin_shufflevector(z[0], z[1], 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes yw_23 = __builtin_shufflevector(z[2], z[3], 1, 9, 3, 11, 5, 13, 7, 15);
+  return {{__builtin_shufflevector(xz_01, xz_23, 0, 1, 8, 9, 4, 5, 12, 13),
+           __builtin_shufflevector(yw_01, yw_23, 0, 1, 8, 9, 4, 5, 12, 13),
+           __builtin_shufflevector(xz_01, xz_23, 2, 3, 10, 11, 6, 7, 14, 15)},
+          __builtin_shufflevector(yw_01, yw_23, 2, 3, 10, 11, 6, 7, 14, 15)};
+}
+
+inline Quads load_quads(const Rows& rows) {
+  std::array<Lanes, 4> z;
+  for (std::size_t k = 0; k < 4; ++k) {
+    HalfLanes low, high;
+    std::memcpy(&low, rows[k], sizeof low);
+    std::memcpy(&high, rows[k + 4], sizeof high);
+    z[k] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  return turn(z);
+}
+
+/// Three doubles of each lane's row.
+inline Triple<Lanes> load_triples(const Rows& rows) {
+  std::array<Lanes, 4> z;
+  for (std::size_t k = 0; k < 4; ++k) {
+    const HalfLanes low = _mm256_maskz_loadu_pd(7, rows[k]), high = _mm256_maskz_loadu_pd(7, rows[k + 4]);
+    z[k] = __builtin_shufflevector(low, high, 0, 1, 2, 3, 4, 5, 6, 7);
+  }
+  return turn(z).first;
+}
+
+/// One bit a lane.
+inline unsigned bits_of(LaneMask mask) {
+  return _mm512_cmplt_epi64_mask(reinterpret_cast<__m512i>(mask), __m512i{});
+}
+
+/// Writes the lanes chosen by `bits` one after the other; kLanes places at `to` may be overwritten.
+inline void store_chosen(Lanes x, unsigned bits, double* to) {
+  const Lanes chosen = _mm512_maskz_compress_pd(static_cast<__mmask8>(bits), x);
+  std::memcpy(to, &chosen, sizeof chosen);
+}
+inline void store_chosen(const LaneIndices& x, unsigned bits, std::uint32_t* to) {
+  __m256i all;
+  std::memcpy(&all, x.data(), sizeof all);
+  all = _mm256_maskz_compress_epi32(static_cast<__mmask8>(bits), all);
+  std::memcpy(to, &all, sizeof all);
 }
 
 #else
@@ -79,6 +113,32 @@ inline Columns load_columns(const Rows& rows) {
 inline void store_columns(const Columns& c, const std::array<double*, kLanes>& rows, std::size_t count) {
   for (std::size_t lane = 0; lane < count; ++lane)
     for (std::size_t k = 0; k < 8; ++k) rows[lane][k] = c[k][lane];
+}
+
+inline Quads load_quads(const Rows& rows) {
+  Quads q;
+  for (std::size_t lane = 0; lane < kLanes; ++lane) {
+    q.first.x[lane] = rows[lane][0];
+    q.first.y[lane] = rows[lane][1];
+    q.first.z[lane] = rows[lane][2];
+    q.last[lane] = rows[lane][3];
+  }
+  return q;
+}
+
+inline unsigned bits_of(LaneMask mask) {
+  unsigned bits = 0;
+  for (unsigned lane = 0; lane < kLanes; ++lane) bits |= (mask[lane] != 0 ? 1u : 0u) << lane;
+  return bits;
+}
+
+inline void store_chosen(Lanes x, unsigned bits, double* to) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if ((bits >> lane & 1) != 0) *to++ = x[lane];
+}
+inline void store_chosen(const LaneIndices& x, unsigned bits, std::uint32_t* to) {
+  for (std::size_t lane = 0; lane < kLanes; ++lane)
+    if ((bits >> lane & 1) != 0) *to++ = x[lane];
 }
 
 inline Triple<Lanes> load_triples(const Rows& rows) {

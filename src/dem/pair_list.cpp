@@ -68,22 +68,28 @@ void PairList::give_slots() {
   const std::size_t n = rock_count(), chunks = (n + rocks_per_chunk - 1) / rocks_per_chunk;
   out_start.assign(chunks + 1, 0);
   in_start.assign(chunks + 2, 0);
+  first.resize(second.size());
+  slot.resize(second.size());
+  std::uint32_t next = 0;
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t p = start[i]; p < start[i + 1]; ++p)
-      if (const auto j = static_cast<std::size_t>(second[p]); crosses(i, j)) {
-        ++out_start[i / rocks_per_chunk + 1];
-        ++in_start[j / rocks_per_chunk + 2];
-      }
+    for (std::size_t p = start[i]; p < start[i + 1]; ++p) {
+      const auto j = static_cast<std::size_t>(second[p]);
+      first[p] = static_cast<std::uint32_t>(i);
+      slot[p] = crosses(i, j) ? next++ : no_slot;
+      if (slot[p] == no_slot) continue;
+      ++out_start[i / rocks_per_chunk + 1];
+      ++in_start[j / rocks_per_chunk + 2];
+    }
   for (std::size_t c = 0; c < chunks; ++c) {
     out_start[c + 1] += out_start[c];
     in_start[c + 2] += in_start[c + 1];
   }
   incoming.resize(out_start[chunks]);
-  std::uint32_t slot = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t p = start[i]; p < start[i + 1]; ++p)
-      if (const auto j = static_cast<std::size_t>(second[p]); crosses(i, j))
-        incoming[in_start[j / rocks_per_chunk + 1]++] = {slot++, static_cast<std::uint32_t>(j)};
+  for (std::size_t p = 0; p < second.size(); ++p)
+    if (slot[p] != no_slot) {
+      const auto j = static_cast<std::uint32_t>(second[p]);
+      incoming[in_start[j / rocks_per_chunk + 1]++] = {slot[p], j};
+    }
   in_start.pop_back();
 }
 
@@ -215,6 +221,7 @@ std::size_t PairList::memory_bytes() const {
   std::size_t bytes = grid.memory_bytes() + incoming.capacity() * sizeof(Incoming);
   bytes += (start.capacity() + out_start.capacity() + in_start.capacity()) * sizeof(std::uint32_t);
   bytes += clear.capacity() * sizeof(double);
+  bytes += (first.capacity() + slot.capacity()) * sizeof(std::uint32_t);
   bytes += second.capacity() * sizeof(int) + touching.capacity();
   bytes += (spring.capacity() + turned.capacity()) * sizeof(Vec3) + memory.capacity() * sizeof(PairMemory);
   for (const auto& chunk : found_) bytes += chunk.capacity() * sizeof(chunk[0]);

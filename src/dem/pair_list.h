@@ -40,6 +40,7 @@ struct Incoming {
 class PairList {
  public:
   static constexpr std::size_t rocks_per_chunk = 512;
+  static constexpr std::uint32_t no_slot = 0xffffffff;
 
   explicit PairList(PairContents contents) : contents_(contents) { start.assign(1, 0); }
 
@@ -59,7 +60,9 @@ class PairList {
   std::size_t rock_count() const { return start.size() - 1; }
 
   std::vector<std::uint32_t> start;      ///< #rocks + 1: pairs of rock i are start[i] .. start[i + 1]
+  std::vector<std::uint32_t> first;      ///< #pairs: i
   std::vector<int> second;               ///< #pairs: j > i
+  std::vector<std::uint32_t> slot;       ///< #pairs: of the reaction on j; no_slot where j is of i's chunk
   std::vector<std::uint8_t> touching;    ///< #pairs
   std::vector<Vec3> spring;              ///< #pairs: tangential stretch [m]
   std::vector<Vec3> turned;              ///< #pairs or empty: rolling history [rad]

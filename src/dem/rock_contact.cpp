@@ -39,40 +39,35 @@ bool DemSystem::Implementation::keeps_clear(std::size_t p, std::size_t i, std::s
   return clear > 0;
 }
 
-void DemSystem::Implementation::find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t c,
-                                                std::size_t end, double dt) {
-  constexpr std::size_t ahead = 12;  // pairs: by then the second rock has come from memory
-  const std::size_t begin = scratch.begin, last = pairs.start[end];
+void DemSystem::Implementation::find_candidates(DemChunk& chunk, PairScratch& scratch, std::size_t end,
+                                                double dt) {
   scratch.shaped.clear();
   scratch.shaped_pairs.clear();
-  // Written without looking whether a pair touches; only then counted.
-  scratch.spheres.resize(last - pairs.start[begin] + 1);
-  Candidate* next = scratch.spheres.data();
-  std::uint32_t slot = pairs.out_start[c];
+  if (only_spheres) return find_spheres(chunk, scratch, end);
+  constexpr std::size_t ahead = 12;  // pairs: by then the second rock has come from memory
+  const std::size_t begin = scratch.begin, last = pairs.start[end];
+  scratch.spheres.make_room(last - pairs.start[begin]);
   for (std::size_t i = begin; i < end; ++i) {
-    const Vec3 x = rocks.x[i];
-    const double radius = rocks.radius[i];
+    const RockPlaceRow a = places[i];
     for (std::size_t p = pairs.start[i]; p < pairs.start[i + 1]; ++p) {
       if (p + ahead < last) {
         const auto soon = static_cast<std::size_t>(pairs.second[p + ahead]);
-        __builtin_prefetch(&rocks.x[soon]);
+        __builtin_prefetch(&places[soon]);
         __builtin_prefetch(&rocks.v[soon]);
       }
       const auto j = static_cast<std::size_t>(pairs.second[p]);
-      const std::uint32_t own_slot = j >= end ? slot++ : Candidate::no_slot;
-      const bool shaped =
-          !only_spheres && !(has_sphere_shape(rocks.shape[i]) && has_sphere_shape(rocks.shape[j]));
+      const bool shaped = !(has_sphere_shape(rocks.shape[i]) && has_sphere_shape(rocks.shape[j]));
       if (shaped && keeps_clear(p, i, j, dt)) continue;
-      Vec3 separation = rocks.x[j] - x;
+      const RockPlaceRow& b = places[j];
+      Vec3 separation = b.x - a.x;
       if (periodic) separation = scene.domain.nearest_image(separation);
-      const double distance2 = separation.squaredNorm(), reach = radius + rocks.radius[j];
+      const double distance2 = separation.squaredNorm(), reach = a.radius + b.radius;
       const bool meet = distance2 < reach * reach;
       if (!meet && pairs.touching[p]) end_pair(chunk, i, p);
       const Candidate candidate{separation, static_cast<std::uint32_t>(p), static_cast<std::uint32_t>(i),
-                                static_cast<std::uint32_t>(j), own_slot};
+                                static_cast<std::uint32_t>(j)};
       if (!shaped) {
-        *next = candidate;
-        next += meet;
+        if (meet) scratch.spheres.add(candidate, a.radius, b.radius);
       } else if (meet) {
         __builtin_prefetch(&pairs.memory[p]);
         __builtin_prefetch(&pairs.memory[p].normal.z());
@@ -83,7 +78,7 @@ void DemSystem::Implementation::find_candidates(DemChunk& chunk, PairScratch& sc
       }
     }
   }
-  scratch.spheres.resize(static_cast<std::size_t>(next - scratch.spheres.data()));
+  scratch.spheres.repeat_last();
 }
 
 /// The bodies that stand for a pair's entry: the rocks, or a copy of one of them.
@@ -136,15 +131,16 @@ void DemSystem::Implementation::find_repeated(PairScratch& scratch) const {
   }
 }
 
-void DemSystem::Implementation::pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t c,
-                                         std::size_t end, const StepTime& time) {
-  find_candidates(chunk, scratch, c, end, time.dt);
+void DemSystem::Implementation::pairs_of(DemChunk& chunk, PairScratch& scratch, std::size_t end,
+                                         const StepTime& time) {
+  find_candidates(chunk, scratch, end, time.dt);
   if (!scratch.shaped.empty()) solve_shaped(chunk, scratch);
   if (plain_laws) return touch_in_lanes(chunk, scratch, time);
   const auto ratio = [&](const Candidate& candidate, double overlap) {
     return 2 * overlap / std::min(rocks.size[candidate.i], rocks.size[candidate.j]);
   };
-  for (const Candidate& candidate : scratch.spheres) {
+  for (std::size_t k = 0; k < scratch.spheres.count; ++k) {
+    const Candidate candidate = scratch.spheres.candidate(k);
     const Touch touch = spheres_touch(candidate);
     touch_pair(chunk, scratch, candidate, touch, time);
     count_contact(chunk, ratio(candidate, touch.overlap), time);
@@ -219,8 +215,8 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch
   Push& on_a = scratch.push[i - scratch.begin];
   on_a.force += force_a;
   on_a.torque += torque_a;
-  Push& on_b =
-      candidate.slot == Candidate::no_slot ? scratch.push[j - scratch.begin] : reactions[candidate.slot];
+  const std::uint32_t slot = pairs.slot[p];
+  Push& on_b = slot == PairList::no_slot ? scratch.push[j - scratch.begin] : reactions[slot];
   on_b.force -= force_a;
   on_b.torque += torque_b;
 }

@@ -77,6 +77,8 @@ void DemSystem::Implementation::sort_in_space() {
   permute(fluid_torque, order);
   permute(near_walls, order);
   for (MovingWalls& part : moving) permute(part.near, order);
+  permute(places, order);
+  permute(motions, order);
   permute(turned_shapes, order);
   permute(rim_speed, order);
 }
