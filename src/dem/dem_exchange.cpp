@@ -40,8 +40,18 @@ void DemSystem::Implementation::exchange_rocks(StateArchive& archive) {
     per_inertia.clear();
     for (std::size_t i = 0; i < count(); ++i) per_inertia.push_back(inertia(i).cwiseInverse());
   }
+  std::vector<Vec3> force, torque;
+  for (const Push& one : push) {
+    force.push_back(one.force);
+    torque.push_back(one.torque);
+  }
   archive.values("force", force);
   archive.values("torque", torque);
+  push.resize(force.size());
+  for (std::size_t i = 0; i < push.size(); ++i) {
+    push[i].force = force[i];
+    push[i].torque = torque[i];
+  }
   archive.values("fluid_force", fluid_force);
   archive.values("fluid_torque", fluid_torque);
   archive.values("listed_at", listed_at);
@@ -161,12 +171,12 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
   bytes += bytes_of(rocks.id) + bytes_of(rocks.x) + bytes_of(rocks.v) + bytes_of(rocks.w) + bytes_of(rocks.q);
   bytes += bytes_of(rocks.shape) + bytes_of(rocks.material) + bytes_of(rocks.source) + bytes_of(rocks.size);
   bytes += bytes_of(rocks.mass) + bytes_of(rocks.radius) + bytes_of(rocks.birth) + bytes_of(rocks.wet_dose);
-  bytes += bytes_of(places) + bytes_of(motions) + bytes_of(angular) + bytes_of(force) + bytes_of(torque) + bytes_of(fluid_force);
+  bytes += bytes_of(places) + bytes_of(motions) + bytes_of(angular) + bytes_of(push) + bytes_of(fluid_force);
   bytes += bytes_of(fluid_torque) + bytes_of(listed_at) + bytes_of(margin);
   bytes += bytes_of(turned_shapes) + bytes_of(rim_speed) + bytes_of(per_inertia) + bytes_of(reactions) +
            bytes_of(room_reach) + bytes_of(near_walls);
   for (const PairScratch& scratch : pair_scratch)
-    bytes += bytes_of(scratch.push) + scratch.spheres.memory_bytes() + bytes_of(scratch.shaped) +
+    bytes += scratch.spheres.memory_bytes() + bytes_of(scratch.shaped) +
              bytes_of(scratch.shaped_pairs) + bytes_of(scratch.geometry) + bytes_of(scratch.outcome) +
              bytes_of(scratch.repeated);
   const auto add_near = [&](const std::vector<RockWalls>& all) {

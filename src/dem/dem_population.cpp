@@ -73,8 +73,7 @@ std::uint64_t DemSystem::add(const NewRock& rock) {
     s.angular.push_back(angular_momentum(r.q[i], r.w[i], s.inertia(i)));
     s.per_inertia.push_back(s.inertia(i).cwiseInverse());
   }
-  s.force.emplace_back(Vec3::Zero());
-  s.torque.emplace_back(Vec3::Zero());
+  s.push.emplace_back();
   if (!s.fluid_force.empty()) {
     s.fluid_force.emplace_back(Vec3::Zero());
     s.fluid_torque.emplace_back(Vec3::Zero());
@@ -148,8 +147,7 @@ void DemSystem::Implementation::compact(const std::vector<int>& new_index, std::
   keep(rocks.wetted, new_index, kept);
   keep(angular, new_index, kept);
   keep(per_inertia, new_index, kept);
-  keep(force, new_index, kept);
-  keep(torque, new_index, kept);
+  keep(push, new_index, kept);
   keep(fluid_force, new_index, kept);
   keep(fluid_torque, new_index, kept);
   keep(listed_at, new_index, kept);

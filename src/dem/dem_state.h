@@ -87,7 +87,6 @@ struct MeetingSpheres {
 /// What one chunk needs while its contacts are looked at; one a thread.
 struct PairScratch {
   std::size_t begin = 0;                  ///< first rock of the chunk
-  std::vector<Push> push;                 ///< on the rocks of the chunk
   MeetingSpheres spheres;                 ///< all of these touch
   std::vector<Candidate> shaped;          ///< at least one is a superquadric
   std::vector<BodyPair> shaped_pairs;     ///< the same
@@ -167,7 +166,7 @@ struct DemSystem::Implementation {
   std::vector<Vec3> per_inertia;    ///< one over the principal inertia [1/(kg m2)]; empty likewise
   std::vector<RockPlaceRow> places;    ///< of this step
   std::vector<RockMotionRow> motions;  ///< likewise
-  std::vector<Vec3> force, torque;     ///< of contacts, last step
+  std::vector<Push> push;              ///< of contacts, last step
   std::vector<Vec3> fluid_force, fluid_torque;  ///< empty until set
   std::vector<Vec3> listed_at;                  ///< where each rock was when the pairs were listed [m]
   std::vector<double> margin;                   ///< how far it may go from there [m]
@@ -251,6 +250,11 @@ struct DemSystem::Implementation {
   void give_half_to_walls(double dt);
   void take_half_of_work(double dt);
   void kick(std::size_t i, double seconds);
+  void move_spheres(DemChunk& chunk, std::size_t begin, std::size_t end, const StepTime& time, bool goes_on);
+  void end_spheres(std::size_t begin, std::size_t end, const StepTime& time);
+  /// Moves a rock on by a step with the velocity it has.
+  void move(DemChunk& chunk, std::size_t i, Vec3& x, const Vec3& v, const StepTime& time);
+  [[noreturn]] void stop_wild(std::size_t i, const StepTime& time) const;
 
   void keep_rows(std::size_t begin, std::size_t end);
   void find_spheres(DemChunk& chunk, PairScratch& scratch, std::size_t end);
@@ -262,8 +266,7 @@ struct DemSystem::Implementation {
   void find_repeated(PairScratch& scratch) const;
   Touch spheres_touch(const Candidate& candidate) const;
   Touch superquadrics_touch(const Candidate& candidate, const ContactGeometry& geometry) const;
-  void touch_pair(DemChunk& chunk, PairScratch& scratch, const Candidate& candidate, const Touch& touch,
-                  const StepTime& time);
+  void touch_pair(DemChunk& chunk, const Candidate& candidate, const Touch& touch, const StepTime& time);
   double share_of(std::size_t i, std::size_t j) const { return meet_as_copies(i, j) ? face_share : 1; }
   struct LaneContacts;
   void touch_in_lanes(DemChunk& chunk, PairScratch& scratch, const StepTime& time);

@@ -87,17 +87,13 @@ void DemSystem::Implementation::take_half_of_work(double dt) {
 }
 
 void DemSystem::Implementation::kick(std::size_t i, double seconds) {
-  Vec3 f = force[i], moment = torque[i];
+  Vec3 f = push[i].force, moment = push[i].torque;
   if (!fluid_force.empty()) {
     f += fluid_force[i];
     moment += fluid_torque[i];
   }
   rocks.v[i] += seconds * (f / rocks.mass[i] + scene.gravity);
-  if (only_spheres) {
-    rocks.w[i] += seconds * moment / inertia(i).x();
-  } else {
-    angular[i] += seconds * moment;
-  }
+  angular[i] += seconds * moment;
 }
 
 void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
@@ -109,34 +105,43 @@ void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
   motions.resize(count());
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
     if (goes_on) take_reactions(c);
-    for (std::size_t i = begin; i < end; ++i) {
-      if (goes_on) end_step(i, time);
-      begin_step(chunks[c], i, time);
+    if (only_spheres) {
+      move_spheres(chunks[c], begin, end, time, goes_on);
+    } else {
+      for (std::size_t i = begin; i < end; ++i) {
+        if (goes_on) end_step(i, time);
+        begin_step(chunks[c], i, time);
+      }
+      turn_rocks(begin, end, time.dt);
+      keep_rows(begin, end);
     }
-    if (!only_spheres) turn_rocks(begin, end, time.dt);
-    keep_rows(begin, end);
     if (!fluid_force.empty()) count_fluid(chunks[c], begin, end, time.dt);
   });
 }
 
 void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const StepTime& time) {
   kick(i, 0.5 * time.dt);
-  const Vec3 move = time.dt * rocks.v[i];
+  move(chunk, i, rocks.x[i], rocks.v[i], time);
+}
+
+void DemSystem::Implementation::move(DemChunk& chunk, std::size_t i, Vec3& x, const Vec3& v,
+                                     const StepTime& time) {
+  const Vec3 by = time.dt * v;
   const double most = longest_move * 0.5 * rocks.size[i];
-  if (!(move.squaredNorm() <= most * most))
+  if (!(by.squaredNorm() <= most * most))
     throw NumericalError("rocks.substeps", time.t,
                          fmt::format("rock {} moves {:.3g} radius in one step (limit {})", rocks.id[i],
-                                     move.norm() / (0.5 * rocks.size[i]), longest_move),
+                                     by.norm() / (0.5 * rocks.size[i]), longest_move),
                          "raise 'steps_per_contact' or check the speeds that enter");
-  rocks.x[i] += move;
-  Vec3 moved = rocks.x[i] - listed_at[i];
+  x += by;
+  Vec3 moved = x - listed_at[i];
   if (periodic) {
-    rocks.x[i] = scene.domain.wrapped(rocks.x[i]);
+    x = scene.domain.wrapped(x);
     moved = scene.domain.nearest_image(moved);
   }
   chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
   chunk.mass_seconds += rocks.mass[i] * time.dt;
-  chunk.gravity_work += rocks.mass[i] * scene.gravity.dot(move);
+  chunk.gravity_work += rocks.mass[i] * scene.gravity.dot(by);
 }
 
 void DemSystem::Implementation::count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt) {
@@ -184,14 +189,11 @@ void DemSystem::Implementation::contacts(const StepTime& time) {
   parallel_chunks_with(pair_scratch, count(), chunk_length,
                        [&](PairScratch& scratch, std::size_t c, std::size_t begin, std::size_t end) {
                          scratch.begin = begin;
-                         scratch.push.assign(end - begin, {});
+                         std::fill(push.begin() + static_cast<std::ptrdiff_t>(begin),
+                                   push.begin() + static_cast<std::ptrdiff_t>(end), Push{});
                          std::fill(reactions.begin() + pairs.out_start[c],
                                    reactions.begin() + pairs.out_start[c + 1], Push{});
                          pairs_of(chunks[c], scratch, end, time);
-                         for (std::size_t i = begin; i < end; ++i) {
-                           force[i] = scratch.push[i - begin].force;
-                           torque[i] = scratch.push[i - begin].torque;
-                         }
                          if (has_walls)
                            for (std::size_t i = begin; i < end; ++i) walls_of(chunks[c], i, time);
                          if (!moving.empty())
@@ -202,26 +204,29 @@ void DemSystem::Implementation::contacts(const StepTime& time) {
 void DemSystem::Implementation::take_reactions(std::size_t c) {
   for (std::size_t k = pairs.in_start[c]; k < pairs.in_start[c + 1]; ++k) {
     const auto [slot, rock] = pairs.incoming[k];
-    force[rock] += reactions[slot].force;
-    torque[rock] += reactions[slot].torque;
+    push[rock].force += reactions[slot].force;
+    push[rock].torque += reactions[slot].torque;
   }
+}
+
+void DemSystem::Implementation::stop_wild(std::size_t i, const StepTime& time) const {
+  throw NumericalError("rocks.substeps", time.t,
+                       fmt::format("rock {} has a velocity that is no number", rocks.id[i]),
+                       "raise 'steps_per_contact' or lower 'network_fraction'");
 }
 
 void DemSystem::Implementation::end_step(std::size_t i, const StepTime& time) {
   kick(i, 0.5 * time.dt);
-  const Vec3& turning = only_spheres ? rocks.w[i] : angular[i];
-  if (!std::isfinite(rocks.v[i].sum()) || !std::isfinite(turning.sum()))
-    throw NumericalError("rocks.substeps", time.t,
-                         fmt::format("rock {} has a velocity that is no number", rocks.id[i]),
-                         "raise 'steps_per_contact' or lower 'network_fraction'");
+  if (!std::isfinite(rocks.v[i].sum()) || !std::isfinite(angular[i].sum())) stop_wild(i, time);
 }
 
 void DemSystem::Implementation::finish(const StepTime& time) {
   parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
     take_reactions(c);
+    if (only_spheres) return end_spheres(begin, end, time);
     for (std::size_t i = begin; i < end; ++i) {
       end_step(i, time);
-      if (!only_spheres) rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
+      rocks.w[i] = angular_velocity(rocks.q[i], angular[i], per_inertia[i]);
     }
   });
 }

@@ -158,15 +158,16 @@ struct DemSystem::Implementation::LaneContacts {
   LaneTouch spheres(const Group& g, std::size_t first, const Lanes& mass_a, const Lanes& mass_b) const {
     const Lanes radius_a = lanes_at(scratch.spheres.radius_i, first);
     const Lanes radius_b = lanes_at(scratch.spheres.radius_j, first);
-    const Lanes distance = lanes::root(dot(g.separation, g.separation));
-    const LaneMask apart = distance > 0.0;
-    const Lanes inverse = 1.0 / select(apart, distance, all_lanes(1.0));
+    const Lanes distance2 = dot(g.separation, g.separation);
+    const LaneMask apart = distance2 > 1e-290;
+    const Lanes inverse = lanes::reciprocal_root(select(apart, distance2, all_lanes(1.0)));
+    const Lanes distance = select(apart, distance2 * inverse, Lanes{});
     LaneTouch touch;
     touch.normal = select(apart, inverse * g.separation, LaneTriple{Lanes{}, Lanes{}, all_lanes(1.0)});
     touch.overlap = radius_a + radius_b - distance;
     touch.arm_a = (radius_a - 0.5 * touch.overlap) * touch.normal;
     touch.arm_b = touch.arm_a - g.separation;
-    touch.mass_effective = mass_a * mass_b / (mass_a + mass_b);
+    touch.mass_effective = mass_a * mass_b * lanes::reciprocal(mass_a + mass_b);
     return touch;
   }
 
@@ -197,7 +198,7 @@ struct DemSystem::Implementation::LaneContacts {
 
   void note_overlaps(const Group& g, const LaneTouch& touch, const Lanes& size_a, const Lanes& size_b,
                      std::span<const std::uint8_t> repeated) {
-    const Lanes ratio = 2.0 * touch.overlap / lanes::smaller(size_a, size_b);
+    const Lanes ratio = 2.0 * touch.overlap * lanes::reciprocal(lanes::smaller(size_a, size_b));
     const LaneMask within = ratio <= s.config.overlap_limit;
     if (any(~within) || time.sampled || !repeated.empty()) {
       for (std::size_t k = 0; k < g.count; ++k) {
@@ -221,8 +222,8 @@ struct DemSystem::Implementation::LaneContacts {
     std::array<Push*, kLanes> on_a{}, on_b{};
     for (std::size_t k = 0; k < g.count; ++k) {
       const std::uint32_t slot = s.pairs.slot[g.pair[k]];
-      on_a[k] = &scratch.push[g.i[k] - scratch.begin];
-      on_b[k] = slot == PairList::no_slot ? &scratch.push[g.j[k] - scratch.begin] : &s.reactions[slot];
+      on_a[k] = &s.push[g.i[k]];
+      on_b[k] = slot == PairList::no_slot ? &s.push[g.j[k]] : &s.reactions[slot];
       s.pairs.touching[g.pair[k]] = 1;
     }
     add_rows(force, torque_a, on_a, g.count);
@@ -245,8 +246,8 @@ struct DemSystem::Implementation::LaneContacts {
       // The law of the contact.
       const LaneLaw law = law_of(g);
       const double ratio = s.config.tangential_ratio;
-      const Lanes k_n = s.limits.stiffness_per_size * 2 * size_a * size_b / (size_a + size_b);
-      const Lanes c_n = 2.0 * law.zeta * lanes::root(k_n * touch.mass_effective);
+      const Lanes k_n = s.limits.stiffness_per_size * 2 * size_a * size_b * lanes::reciprocal(size_a + size_b);
+      const Lanes c_n = 2.0 * law.zeta * lanes::quick_root(k_n * touch.mass_effective);
       const LinearConstants<Lanes> constants{k_n,
                                              ratio * k_n,
                                              c_n,

@@ -84,6 +84,27 @@ inline Triple<Lanes> load_triples(const Rows& rows) {
   return turn(z).first;
 }
 
+/// Three doubles to the row of each of the first `count` lanes.
+inline void store_triples(const Triple<Lanes>& t, const std::array<double*, kLanes>& rows,
+                          std::size_t count) {
+  // To rows k and k + 4 in one register.
+  const Lanes none{};
+  const Lanes xy_01 = __builtin_shufflevector(t.x, t.y, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes xy_23 = __builtin_shufflevector(t.x, t.y, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Lanes z_01 = __builtin_shufflevector(t.z, none, 0, 8, 2, 10, 4, 12, 6, 14);
+  const Lanes z_23 = __builtin_shufflevector(t.z, none, 1, 9, 3, 11, 5, 13, 7, 15);
+  const std::array<Lanes, 4> z{__builtin_shufflevector(xy_01, z_01, 0, 1, 8, 9, 4, 5, 12, 13),
+                               __builtin_shufflevector(xy_23, z_23, 0, 1, 8, 9, 4, 5, 12, 13),
+                               __builtin_shufflevector(xy_01, z_01, 2, 3, 10, 11, 6, 7, 14, 15),
+                               __builtin_shufflevector(xy_23, z_23, 2, 3, 10, 11, 6, 7, 14, 15)};
+  for (std::size_t k = 0; k < count; ++k) {
+    const Lanes& both = z[k % 4];
+    const HalfLanes half = k < 4 ? __builtin_shufflevector(both, both, 0, 1, 2, 3)
+                                 : __builtin_shufflevector(both, both, 4, 5, 6, 7);
+    _mm256_mask_storeu_pd(rows[k], 7, half);
+  }
+}
+
 /// One bit a lane.
 inline unsigned bits_of(LaneMask mask) {
   return _mm512_cmplt_epi64_mask(reinterpret_cast<__m512i>(mask), __m512i{});
@@ -151,6 +172,15 @@ inline Triple<Lanes> load_triples(const Rows& rows) {
   return t;
 }
 
+inline void store_triples(const Triple<Lanes>& t, const std::array<double*, kLanes>& rows,
+                          std::size_t count) {
+  for (std::size_t k = 0; k < count; ++k) {
+    rows[k][0] = t.x[k];
+    rows[k][1] = t.y[k];
+    rows[k][2] = t.z[k];
+  }
+}
+
 #endif
 
 inline Triple<Lanes> load_triples(const std::vector<Vec3>& base, const LaneIndices& at) {
@@ -162,7 +192,9 @@ inline Triple<Lanes> load_triples(const std::vector<Vec3>& base, const LaneIndic
 /// Gives the first `count` lanes to their vectors.
 inline void store_triples(const Triple<Lanes>& t, std::vector<Vec3>& base, const LaneIndices& at,
                           std::size_t count) {
-  for (std::size_t k = 0; k < count; ++k) base[at[k]] = {t.x[k], t.y[k], t.z[k]};
+  std::array<double*, kLanes> rows;
+  for (std::size_t k = 0; k < kLanes; ++k) rows[k] = base[at[k]].data();
+  store_triples(t, rows, count);
 }
 
 }  // namespace sluice::lanes

@@ -25,6 +25,9 @@ inline double reciprocal(double x) {
 inline double reciprocal_root(double x) {
   return 1 / std::sqrt(x);
 }
+inline double quick_root(double x) {
+  return std::sqrt(x);
+}
 inline bool any(bool mask) {
   return mask;
 }
@@ -70,6 +73,15 @@ inline Lanes reciprocal_root(Lanes x) {
   return y + 0.5 * y * (1.0 - x * y * y);
 #else
   return 1.0 / root(x);
+#endif
+}
+/// sqrt(x) for x >= 0, to two units in the last place; below 1e-290 less than it is.
+inline Lanes quick_root(Lanes x) {
+#if defined(__AVX512F__)
+  const Lanes least = Lanes{} + 1e-290;
+  return x * reciprocal_root(x > least ? x : least);
+#else
+  return root(x);
 #endif
 }
 inline bool any(LaneMask mask) {

@@ -40,7 +40,7 @@ lanes::Triple<Real> turned_into_plane(const lanes::Triple<Real>& spring, const l
   // A spring that lies along n has no direction left: it is let go.
   const auto has_direction = after > 0.0;
   const Real safe = lanes::select(has_direction, after, Real{} + 1.0);
-  const Real stretch = lanes::select(has_direction, lanes::root(before / safe), Real{});
+  const Real stretch = lanes::select(has_direction, lanes::quick_root(before * lanes::reciprocal(safe)), Real{});
   return stretch * across;
 }
 
@@ -73,10 +73,10 @@ LinearForce<Real> linear_contact(const LinearConstants<Real>& c, double dt, Line
   const Real size2 = dot(elastic_and_damped, elastic_and_damped);
   const Real limit = c.friction * larger(normal, Real{});
   const auto slides = size2 > limit * limit;
-  const Real share = limit / lanes::root(select(slides, size2, Real{} + 1.0));
+  const Real share = limit * lanes::reciprocal_root(select(slides, size2, Real{} + 1.0));
   Triple<Real> tangential = select(slides, share * elastic_and_damped, elastic_and_damped);
   // Cut back so that spring and dashpot together give the limit; no push, no stretch.
-  const Real yields = select(limit > 0.0, 1.0 / c.k_t, Real{});
+  const Real yields = select(limit > 0.0, lanes::reciprocal(c.k_t), Real{});
   contact.spring = select(slides, yields * (tangential - c.c_t * sliding), stretched);
   if (lanes::any(touches)) {
     const auto weighted = touches & (normal > 0.0);
@@ -104,7 +104,7 @@ RollingResistance<Real> rolling_resistance(const Real& rolling, const Real& radi
   constexpr double damping_ratio = 0.3;  // Ai et al. (2011), their value for quasi-static beds
   const Real arm = rolling * radius_effective;
   const Real stiffness = 2.25 * k_n * arm * arm;
-  return {stiffness, 2 * damping_ratio * lanes::root(stiffness * inertia),
+  return {stiffness, 2 * damping_ratio * lanes::quick_root(stiffness * inertia),
           arm * lanes::larger(normal_force, Real{})};
 }
 
@@ -118,10 +118,10 @@ lanes::Triple<Real> rolling_moment(const RollingResistance<Real>& c, const lanes
   const Real size2 = dot(torque, torque);
   const auto rolls = size2 > c.limit * c.limit;
   // Plastic: the spring alone may hold the limit, the dashpot adds nothing once it rolls.
-  const Real held = c.stiffness * lanes::root(dot(turned, turned));
+  const Real held = c.stiffness * lanes::quick_root(dot(turned, turned));
   const auto yields = rolls & (held > c.limit);
-  turned = select(yields, c.limit / select(yields, held, Real{} + 1.0), Real{} + 1.0) * turned;
-  const Real share = select(rolls, c.limit / lanes::root(select(rolls, size2, Real{} + 1.0)), Real{} + 1.0);
+  turned = select(yields, c.limit * lanes::reciprocal(select(yields, held, Real{} + 1.0)), Real{} + 1.0) * turned;
+  const Real share = select(rolls, c.limit * lanes::reciprocal_root(select(rolls, size2, Real{} + 1.0)), Real{} + 1.0);
   return -share * torque;
 }
 

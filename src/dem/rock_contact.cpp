@@ -142,13 +142,13 @@ void DemSystem::Implementation::pairs_of(DemChunk& chunk, PairScratch& scratch, 
   for (std::size_t k = 0; k < scratch.spheres.count; ++k) {
     const Candidate candidate = scratch.spheres.candidate(k);
     const Touch touch = spheres_touch(candidate);
-    touch_pair(chunk, scratch, candidate, touch, time);
+    touch_pair(chunk, candidate, touch, time);
     count_contact(chunk, ratio(candidate, touch.overlap), time);
   }
   for (std::size_t k = 0; k < scratch.shaped.size(); ++k) {
     const Candidate& candidate = scratch.shaped[k];
     const Touch touch = superquadrics_touch(candidate, scratch.geometry[k]);
-    touch_pair(chunk, scratch, candidate, touch, time);
+    touch_pair(chunk, candidate, touch, time);
     if (has_blocky && scratch.repeated[k] != 0) continue;
     count_contact(chunk, ratio(candidate, touch.overlap), time);
   }
@@ -178,8 +178,8 @@ Touch DemSystem::Implementation::superquadrics_touch(const Candidate& candidate,
 }
 
 /// One contact on its own: what touch_in_lanes does for laws that lanes do not know.
-void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch, const Candidate& candidate,
-                                           const Touch& touch, const StepTime& time) {
+void DemSystem::Implementation::touch_pair(DemChunk& chunk, const Candidate& candidate, const Touch& touch,
+                                           const StepTime& time) {
   const std::size_t i = candidate.i, j = candidate.j, p = candidate.pair;
   const Body a = body_of(i), b = body_of(j);
   check_overlap(chunk, a.size <= b.size ? i : j, 2 * touch.overlap / std::min(a.size, b.size), time);
@@ -212,11 +212,11 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, PairScratch& scratch
     chunk.lost_friction -= moment.dot(spin) * time.dt;
   }
   pairs.touching[p] = 1;
-  Push& on_a = scratch.push[i - scratch.begin];
+  Push& on_a = push[i];
   on_a.force += force_a;
   on_a.torque += torque_a;
   const std::uint32_t slot = pairs.slot[p];
-  Push& on_b = slot == PairList::no_slot ? scratch.push[j - scratch.begin] : reactions[slot];
+  Push& on_b = slot == PairList::no_slot ? push[j] : reactions[slot];
   on_b.force -= force_a;
   on_b.torque += torque_b;
 }

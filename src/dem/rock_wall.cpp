@@ -132,8 +132,8 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
   contact.lost_normal *= share;
   contact.lost_friction *= share;
   contact.elastic *= share;
-  force[i] += contact.force;
-  torque[i] += arm.cross(contact.force) + moment;
+  push[i].force += contact.force;
+  push[i].torque += arm.cross(contact.force) + moment;
   chunk.lost_normal += contact.lost_normal;
   chunk.lost_friction += contact.lost_friction + lost_rolling;
   chunk.wall_work += contact.force.dot(moves.belt) * time.dt;

@@ -71,8 +71,7 @@ void DemSystem::Implementation::sort_in_space() {
   permute(rocks.wetted, order);
   permute(angular, order);
   permute(per_inertia, order);
-  permute(force, order);
-  permute(torque, order);
+  permute(push, order);
   permute(fluid_force, order);
   permute(fluid_torque, order);
   permute(near_walls, order);

@@ -120,6 +120,9 @@ void DemSystem::Implementation::find_spheres(DemChunk& chunk, PairScratch& scrat
       end_pair(chunk, i[k], at[k]);
     }
 
+    for (unsigned left = meet; left != 0; left &= left - 1)
+      __builtin_prefetch(&motions[j[static_cast<std::size_t>(__builtin_ctz(left))]]);
+
     const std::size_t n = found.count;
     store_chosen(separation.x, meet, &found.x[n]);
     store_chosen(separation.y, meet, &found.y[n]);
