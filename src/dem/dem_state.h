@@ -39,9 +39,9 @@ struct Body {
 /// Force and torque on a rock: one cache line, eight doubles to the lanes.
 struct alignas(64) Push {
   Vec3 force = Vec3::Zero();  ///< [N]
-  double unused = 0;
+  double rock = 0;            ///< whom it is for, where it waits in a queue
   Vec3 torque = Vec3::Zero();  ///< [N m]
-  double unused_too = 0;
+  double unused = 0;
 };
 
 /// What pairs read of a rock, as rows that lanes load whole: where it is ...
@@ -145,6 +145,7 @@ struct DemSystem::Implementation {
   // How far a rock may go before the pairs are listed again, of its bounding radius; beside periodic faces at
   // most so far that it cannot reach another one twice.
   static constexpr double least_margin = 0.03, most_margin = 0.3;
+  static constexpr double longest_move = 0.5;  ///< of the radius in one step: beyond it contacts would be missed
 
   DemConfig config;
   DemScene scene;
@@ -164,8 +165,9 @@ struct DemSystem::Implementation {
   Rocks rocks;
   std::vector<Vec3> angular;        ///< angular momentum of rocks [kg m2/s]; empty where all are spheres
   std::vector<Vec3> per_inertia;    ///< one over the principal inertia [1/(kg m2)]; empty likewise
-  std::vector<RockPlaceRow> places;    ///< of this step
-  std::vector<RockMotionRow> motions;  ///< likewise
+  /// What contacts read of the rocks; of spheres among spheres the only copy that is current within steps.
+  std::vector<RockPlaceRow> places;
+  std::vector<RockMotionRow> motions;
   std::vector<Push> push;              ///< of contacts, last step
   std::vector<Vec3> fluid_force, fluid_torque;  ///< empty until set
   std::vector<Vec3> listed_at;                  ///< where each rock was when the pairs were listed [m]
@@ -187,7 +189,8 @@ struct DemSystem::Implementation {
   /// One a rock, then face_copies a rock where some are blocky; empty where all are spheres.
   std::vector<TurnedShape> turned_shapes;
   std::vector<double> rim_speed;          ///< fastest that turning moves a point [m/s]; empty likewise
-  std::vector<Push> reactions;            ///< by slot of the pair list
+  std::vector<Push> reactions;            ///< by queue of the pair list
+  std::vector<std::uint32_t> queued;      ///< how many wait in each
   std::vector<PairScratch> pair_scratch;  ///< by thread
 
   // for has_room
@@ -233,14 +236,25 @@ struct DemSystem::Implementation {
   void prepare_chunks(double dt);
   /// @param goes_on  the last step still wants its end
   void drift(const StepTime& time, bool goes_on);
+  /// Where the reaction on the second rock of a pair goes.
+  Push& reaction_on(std::size_t j, std::size_t p) {
+    const std::uint32_t q = pairs.queue[p];
+    if (q == PairList::no_queue) return push[j];
+    Push& waits = reactions[pairs.queue_start[q] + queued[q]++];
+    waits = {};
+    waits.rock = static_cast<double>(j);
+    return waits;
+  }
   void take_reactions(std::size_t c);
   void begin_step(DemChunk& chunk, std::size_t i, const StepTime& time);
   void turn_rocks(std::size_t begin, std::size_t end, double dt);
   void count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt);
   void end_step(std::size_t i, const StepTime& time);
   Body body_of(std::size_t i) const {
-    return {rocks.x[i], rocks.radius[i], rocks.v[i],        rocks.mass[i],
-            rocks.w[i], rocks.size[i],   rocks.material[i], rocks.shape[i]};
+    const RockPlaceRow& place = places[i];
+    const RockMotionRow& motion = motions[i];
+    return {place.x,  place.radius, motion.v,          motion.mass,
+            motion.w, motion.size,  rocks.material[i], rocks.shape[i]};
   }
   void list_pairs(double dt);
   void turn_copies();
@@ -251,9 +265,13 @@ struct DemSystem::Implementation {
   void take_half_of_work(double dt);
   void kick(std::size_t i, double seconds);
   void move_spheres(DemChunk& chunk, std::size_t begin, std::size_t end, const StepTime& time, bool goes_on);
+  void take_from_rows(std::size_t begin, std::size_t end);
   void end_spheres(std::size_t begin, std::size_t end, const StepTime& time);
   /// Moves a rock on by a step with the velocity it has.
-  void move(DemChunk& chunk, std::size_t i, Vec3& x, const Vec3& v, const StepTime& time);
+  void move(DemChunk& chunk, std::size_t i, Vec3& x, const RockMotionRow& motion, const StepTime& time);
+  /// @param none  zero unless a velocity of the chunk is no number
+  void stop_if_wild(double none, std::size_t begin, std::size_t end, const StepTime& time) const;
+  [[noreturn]] void stop_fast(std::size_t i, const Vec3& v, const StepTime& time) const;
   [[noreturn]] void stop_wild(std::size_t i, const StepTime& time) const;
 
   void keep_rows(std::size_t begin, std::size_t end);
@@ -296,5 +314,21 @@ struct DemSystem::Implementation {
   void exchange_walls(StateArchive& archive);
   void exchange_touches(StateArchive& archive, std::vector<RockWalls>& near, std::size_t length);
 };
+
+inline void DemSystem::Implementation::move(DemChunk& chunk, std::size_t i, Vec3& x, const RockMotionRow& motion,
+                                     const StepTime& time) {
+  const Vec3 by = time.dt * motion.v;
+  const double most = longest_move * 0.5 * motion.size;
+  if (!(by.squaredNorm() <= most * most)) stop_fast(i, motion.v, time);
+  x += by;
+  Vec3 moved = x - listed_at[i];
+  if (periodic) {
+    x = scene.domain.wrapped(x);
+    moved = scene.domain.nearest_image(moved);
+  }
+  chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
+  chunk.mass_seconds += motion.mass * time.dt;
+  chunk.gravity_work += motion.mass * scene.gravity.dot(by);
+}
 
 }  // namespace sluice

@@ -13,8 +13,6 @@ namespace sluice {
 
 namespace {
 constexpr std::uint64_t steps_per_sample = 100;
-constexpr double longest_move = 0.5;  // of the radius in one step: beyond it contacts would be missed
-
 constexpr double steps_per_list = 200;  // a rock may go as far as it does in so many on one list
 constexpr std::uint64_t lists_per_sort = 8;
 }  // namespace
@@ -121,37 +119,20 @@ void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
 
 void DemSystem::Implementation::begin_step(DemChunk& chunk, std::size_t i, const StepTime& time) {
   kick(i, 0.5 * time.dt);
-  move(chunk, i, rocks.x[i], rocks.v[i], time);
-}
-
-void DemSystem::Implementation::move(DemChunk& chunk, std::size_t i, Vec3& x, const Vec3& v,
-                                     const StepTime& time) {
-  const Vec3 by = time.dt * v;
-  const double most = longest_move * 0.5 * rocks.size[i];
-  if (!(by.squaredNorm() <= most * most))
-    throw NumericalError("rocks.substeps", time.t,
-                         fmt::format("rock {} moves {:.3g} radius in one step (limit {})", rocks.id[i],
-                                     by.norm() / (0.5 * rocks.size[i]), longest_move),
-                         "raise 'steps_per_contact' or check the speeds that enter");
-  x += by;
-  Vec3 moved = x - listed_at[i];
-  if (periodic) {
-    x = scene.domain.wrapped(x);
-    moved = scene.domain.nearest_image(moved);
-  }
-  chunk.moved_far = chunk.moved_far || moved.squaredNorm() >= margin[i] * margin[i];
-  chunk.mass_seconds += rocks.mass[i] * time.dt;
-  chunk.gravity_work += rocks.mass[i] * scene.gravity.dot(by);
+  move(chunk, i, rocks.x[i], {rocks.v[i], rocks.mass[i], rocks.w[i], rocks.size[i]}, time);
 }
 
 void DemSystem::Implementation::count_fluid(DemChunk& chunk, std::size_t begin, std::size_t end, double dt) {
   for (std::size_t i = begin; i < end; ++i) {
     chunk.fluid_impulse += fluid_force[i] * dt;
-    chunk.fluid_work += (fluid_force[i].dot(rocks.v[i]) + fluid_torque[i].dot(rocks.w[i])) * dt;
+    chunk.fluid_work += (fluid_force[i].dot(motions[i].v) + fluid_torque[i].dot(motions[i].w)) * dt;
   }
 }
 
 void DemSystem::Implementation::list_pairs(double dt) {
+  if (only_spheres)
+    parallel_chunks(count(), chunk_length,
+                    [&](std::size_t, std::size_t begin, std::size_t end) { take_from_rows(begin, end); });
   if (count() > chunk_length && lists % lists_per_sort == 0) sort_in_space();
   ++lists;
   std::vector<double> reach(count());
@@ -185,14 +166,15 @@ void DemSystem::Implementation::turn_copies() {
 }
 
 void DemSystem::Implementation::contacts(const StepTime& time) {
-  reactions.resize(pairs.incoming.size());
+  reactions.resize(pairs.queue_start.back());
+  queued.resize(pairs.incoming.size());
   parallel_chunks_with(pair_scratch, count(), chunk_length,
                        [&](PairScratch& scratch, std::size_t c, std::size_t begin, std::size_t end) {
                          scratch.begin = begin;
                          std::fill(push.begin() + static_cast<std::ptrdiff_t>(begin),
                                    push.begin() + static_cast<std::ptrdiff_t>(end), Push{});
-                         std::fill(reactions.begin() + pairs.out_start[c],
-                                   reactions.begin() + pairs.out_start[c + 1], Push{});
+                         std::fill(queued.begin() + pairs.out_start[c],
+                                   queued.begin() + pairs.out_start[c + 1], 0);
                          pairs_of(chunks[c], scratch, end, time);
                          if (has_walls)
                            for (std::size_t i = begin; i < end; ++i) walls_of(chunks[c], i, time);
@@ -203,10 +185,22 @@ void DemSystem::Implementation::contacts(const StepTime& time) {
 
 void DemSystem::Implementation::take_reactions(std::size_t c) {
   for (std::size_t k = pairs.in_start[c]; k < pairs.in_start[c + 1]; ++k) {
-    const auto [slot, rock] = pairs.incoming[k];
-    push[rock].force += reactions[slot].force;
-    push[rock].torque += reactions[slot].torque;
+    const std::uint32_t q = pairs.incoming[k];
+    const Push* waits = &reactions[pairs.queue_start[q]];
+    for (const Push* const end = waits + queued[q]; waits != end; ++waits) {
+      Push& on = push[static_cast<std::size_t>(waits->rock)];
+      on.force += waits->force;
+      on.torque += waits->torque;
+    }
   }
+}
+
+void DemSystem::Implementation::stop_fast(std::size_t i, const Vec3& v, const StepTime& time) const {
+  if (!v.allFinite()) stop_wild(i, time);
+  throw NumericalError("rocks.substeps", time.t,
+                       fmt::format("rock {} moves {:.3g} radius in one step (limit {})", rocks.id[i],
+                                   time.dt * v.norm() / (0.5 * rocks.size[i]), longest_move),
+                       "raise 'steps_per_contact' or check the speeds that enter");
 }
 
 void DemSystem::Implementation::stop_wild(std::size_t i, const StepTime& time) const {

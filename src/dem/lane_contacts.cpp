@@ -221,19 +221,30 @@ struct DemSystem::Implementation::LaneContacts {
   void give(const Group& g, const LaneTriple& force, const LaneTriple& torque_a, const LaneTriple& torque_b) {
     std::array<Push*, kLanes> on_a{}, on_b{};
     for (std::size_t k = 0; k < g.count; ++k) {
-      const std::uint32_t slot = s.pairs.slot[g.pair[k]];
       on_a[k] = &s.push[g.i[k]];
-      on_b[k] = slot == PairList::no_slot ? &s.push[g.j[k]] : &s.reactions[slot];
+      on_b[k] = &s.reaction_on(g.j[k], g.pair[k]);
       s.pairs.touching[g.pair[k]] = 1;
     }
     add_rows(force, torque_a, on_a, g.count);
     add_rows({-force.x, -force.y, -force.z}, torque_b, on_b, g.count);
   }
 
+  static constexpr std::size_t ahead = 3 * kLanes;  ///< contacts: by then their rocks have come from memory
+
+  /// Asks for what a group of spheres will need.
+  void fetch(std::size_t first) const {
+    if (first + kLanes > scratch.spheres.count) return;
+    for (std::size_t k = first; k < first + kLanes; ++k) {
+      __builtin_prefetch(&s.motions[scratch.spheres.j[k]]);
+      __builtin_prefetch(&s.pairs.spring[scratch.spheres.pair[k]]);
+    }
+  }
+
   void touch(std::size_t contacts, bool are_shaped) {
     for (std::size_t first = 0; first < contacts; first += kLanes) {
       const Group g = are_shaped ? gather(std::span<const Candidate>(scratch.shaped).subspan(first))
                                  : gather(scratch.spheres, first);
+      if (!are_shaped) fetch(first + ahead);
       const LaneMotion a = load_motions(s.motions, g.i), b = load_motions(s.motions, g.j);
       const Lanes &mass_a = a.mass, &mass_b = b.mass, &size_a = a.size, &size_b = b.size;
       const LaneTouch touch =

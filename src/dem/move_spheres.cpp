@@ -18,12 +18,6 @@ Row load(const void* from) {
 void store(const Row& row, void* to) {
   std::memcpy(to, &row, sizeof row);
 }
-bool is_finite(const Row& row) {
-  const auto wild = (row - row) != 0.0;
-  long long any = 0;
-  for (int k = 0; k < 8; ++k) any |= wild[k];
-  return any == 0;
-}
 static_assert(sizeof(RockMotionRow) == sizeof(Row) && sizeof(Push) == sizeof(Row));
 
 /// What half a step of `half` seconds adds to a motion. The last operation is an addition of products, so that
@@ -47,41 +41,55 @@ Row fall(const Vec3& gravity, double half) {
 }
 }  // namespace
 
+void DemSystem::Implementation::stop_if_wild(double none, std::size_t begin, std::size_t end,
+                                             const StepTime& time) const {
+  if (none == 0) return;
+  for (std::size_t i = begin; i < end; ++i)
+    if (!motions[i].v.allFinite() || !motions[i].w.allFinite()) stop_wild(i, time);
+}
+
 void DemSystem::Implementation::move_spheres(DemChunk& chunk, std::size_t begin, std::size_t end,
                                              const StepTime& time, bool goes_on) {
   if (!goes_on) keep_rows(begin, end);
   const double half = 0.5 * time.dt;
   const Row gravity_half = fall(scene.gravity, half);
   const bool in_fluid = !fluid_force.empty();
+  Row wild{};  // stays zero while all are numbers
   for (std::size_t i = begin; i < end; ++i) {
     Row motion = load(&motions[i]), on = load(&push[i]);
     if (in_fluid) on = with_fluid(on, fluid_force[i], fluid_torque[i]);
     const Row change = half_kick(motion, on, shape_of(i).inertia.x(), gravity_half, half);
-    if (goes_on) {
-      motion += change;
-      if (!is_finite(motion)) stop_wild(i, time);
-    }
-    store(motion + change, &motions[i]);
+    if (goes_on) motion += change;
+    motion += change;
+    wild += motion - motion;
+    store(motion, &motions[i]);
+    move(chunk, i, places[i].x, motions[i], time);
+  }
+  stop_if_wild(wild[0] + wild[1] + wild[2] + wild[4] + wild[5] + wild[6], begin, end, time);
+}
+
+void DemSystem::Implementation::take_from_rows(std::size_t begin, std::size_t end) {
+  for (std::size_t i = begin; i < end; ++i) {
+    rocks.x[i] = places[i].x;
     rocks.v[i] = motions[i].v;
     rocks.w[i] = motions[i].w;
-    move(chunk, i, places[i].x, motions[i].v, time);
-    rocks.x[i] = places[i].x;
   }
 }
 
 void DemSystem::Implementation::end_spheres(std::size_t begin, std::size_t end, const StepTime& time) {
   const double half = 0.5 * time.dt;
   const Row gravity_half = fall(scene.gravity, half);
+  Row wild{};
   for (std::size_t i = begin; i < end; ++i) {
     const Row motion = load(&motions[i]);
     Row on = load(&push[i]);
     if (!fluid_force.empty()) on = with_fluid(on, fluid_force[i], fluid_torque[i]);
     const Row ended = motion + half_kick(motion, on, shape_of(i).inertia.x(), gravity_half, half);
-    if (!is_finite(ended)) stop_wild(i, time);
+    wild += ended - ended;
     store(ended, &motions[i]);
-    rocks.v[i] = motions[i].v;
-    rocks.w[i] = motions[i].w;
   }
+  take_from_rows(begin, end);
+  stop_if_wild(wild[0] + wild[1] + wild[2] + wild[4] + wild[5] + wild[6], begin, end, time);
 }
 
 }  // namespace sluice

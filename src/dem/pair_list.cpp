@@ -64,32 +64,42 @@ void PairList::find(std::span<const Vec3> x, std::span<const double> reach, cons
                [&](std::size_t i) { std::sort(second.begin() + start[i], second.begin() + start[i + 1]); });
 }
 
-void PairList::give_slots() {
+void PairList::give_queues() {
   const std::size_t n = rock_count(), chunks = (n + rocks_per_chunk - 1) / rocks_per_chunk;
-  out_start.assign(chunks + 1, 0);
-  in_start.assign(chunks + 2, 0);
   first.resize(second.size());
-  slot.resize(second.size());
-  std::uint32_t next = 0;
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t p = start[i]; p < start[i + 1]; ++p) {
-      const auto j = static_cast<std::size_t>(second[p]);
-      first[p] = static_cast<std::uint32_t>(i);
-      slot[p] = crosses(i, j) ? next++ : no_slot;
-      if (slot[p] == no_slot) continue;
-      ++out_start[i / rocks_per_chunk + 1];
-      ++in_start[j / rocks_per_chunk + 2];
-    }
+  queue.assign(second.size(), no_queue);
+  out_start.assign(1, 0);
+  queue_start.assign(1, 0);
+  std::vector<std::uint32_t> to;                     // chunk that each queue goes to
+  std::vector<std::uint32_t> crossing(chunks, 0);    // pairs of this chunk that go there
+  std::vector<std::uint32_t> number(chunks, 0);      // of the queue
+  std::vector<std::uint32_t> goes;                   // chunks that any go to
   for (std::size_t c = 0; c < chunks; ++c) {
-    out_start[c + 1] += out_start[c];
-    in_start[c + 2] += in_start[c + 1];
-  }
-  incoming.resize(out_start[chunks]);
-  for (std::size_t p = 0; p < second.size(); ++p)
-    if (slot[p] != no_slot) {
-      const auto j = static_cast<std::uint32_t>(second[p]);
-      incoming[in_start[j / rocks_per_chunk + 1]++] = {slot[p], j};
+    const std::size_t begin = c * rocks_per_chunk, end = std::min(n, begin + rocks_per_chunk);
+    const auto chunk_of = [&](std::size_t p) { return static_cast<std::size_t>(second[p]) / rocks_per_chunk; };
+    goes.clear();
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t p = start[i]; p < start[i + 1]; ++p) {
+        first[p] = static_cast<std::uint32_t>(i);
+        if (const std::size_t other = chunk_of(p); other != c && crossing[other]++ == 0)
+          goes.push_back(static_cast<std::uint32_t>(other));
+      }
+    std::sort(goes.begin(), goes.end());
+    for (const std::uint32_t other : goes) {
+      number[other] = static_cast<std::uint32_t>(to.size());
+      to.push_back(other);
+      queue_start.push_back(queue_start.back() + crossing[other]);
+      crossing[other] = 0;
     }
+    for (std::size_t p = start[begin]; p < start[end]; ++p)
+      if (const std::size_t other = chunk_of(p); other != c) queue[p] = number[other];
+    out_start.push_back(static_cast<std::uint32_t>(to.size()));
+  }
+  in_start.assign(chunks + 2, 0);
+  for (const std::uint32_t other : to) ++in_start[other + 2];
+  for (std::size_t c = 0; c < chunks; ++c) in_start[c + 2] += in_start[c + 1];
+  incoming.resize(to.size());
+  for (std::size_t q = 0; q < to.size(); ++q) incoming[in_start[to[q] + 1]++] = static_cast<std::uint32_t>(q);
   in_start.pop_back();
 }
 
@@ -112,7 +122,7 @@ void PairList::rebuild(std::span<const Vec3> x, std::span<const double> reach, c
       if (o < old.start[i + 1] && old.second[o] == second[p]) copy_memory(old, o++, p);
     }
   });
-  give_slots();
+  give_queues();
 }
 
 void PairList::renumber(std::span<const int> new_index, std::size_t new_count) {
@@ -138,7 +148,7 @@ void PairList::renumber(std::span<const int> new_index, std::size_t new_count) {
     memory.resize(kept);
     clear.resize(kept);
   }
-  give_slots();
+  give_queues();
 }
 
 void PairList::reorder(std::span<const int> new_index) {
@@ -187,7 +197,7 @@ void PairList::reorder(std::span<const int> new_index) {
     if (contents_.superquadrics) memory[p].turn_round();
   }
   start.swap(new_start);
-  give_slots();
+  give_queues();
 }
 
 void PairList::exchange(StateArchive& archive) {
@@ -214,14 +224,16 @@ void PairList::exchange(StateArchive& archive) {
     memory[p].surface_b = Eigen::Map<const Vec3>(rows[p].data() + 3);
     memory[p].normal = Eigen::Map<const Vec3>(rows[p].data() + 6);
   }
-  give_slots();
+  give_queues();
 }
 
 std::size_t PairList::memory_bytes() const {
-  std::size_t bytes = grid.memory_bytes() + incoming.capacity() * sizeof(Incoming);
-  bytes += (start.capacity() + out_start.capacity() + in_start.capacity()) * sizeof(std::uint32_t);
+  std::size_t bytes = grid.memory_bytes();
+  bytes += (start.capacity() + out_start.capacity() + in_start.capacity() + incoming.capacity() +
+            queue_start.capacity()) *
+           sizeof(std::uint32_t);
   bytes += clear.capacity() * sizeof(double);
-  bytes += (first.capacity() + slot.capacity()) * sizeof(std::uint32_t);
+  bytes += (first.capacity() + queue.capacity()) * sizeof(std::uint32_t);
   bytes += second.capacity() * sizeof(int) + touching.capacity();
   bytes += (spring.capacity() + turned.capacity()) * sizeof(Vec3) + memory.capacity() * sizeof(PairMemory);
   for (const auto& chunk : found_) bytes += chunk.capacity() * sizeof(chunk[0]);

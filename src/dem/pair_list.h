@@ -7,10 +7,11 @@
 /// the order of the copies stays.
 ///
 /// Rocks are cut into chunks of `rocks_per_chunk`. A chunk adds the forces of its pairs to its own rocks
-/// at once; the reaction on a rock of another chunk waits in a slot that no other pair writes:
+/// at once; the reaction on a rock of another chunk waits in a queue that no other chunk writes, long enough
+/// for all pairs that cross from the one to the other:
 ///
-///     rocks     [ 0 ... 255 ][ 256 ... 511 ][ ...        reactions of chunk 0: slots out_start[0] ...
-///     pair (7, 300) of chunk 0 crosses: slot s           received by chunk 1: incoming {s, 300}
+///     rocks     [ 0 ... 511 ][ 512 ... 1023 ][ ...       queues of chunk 0: out_start[0] ... out_start[1]
+///     pair (7, 600) of chunk 0 crosses: queue q          received by chunk 1: among incoming[in_start[1] ...]
 ///
 /// so no force is written by two threads, and each rock's sum has one order.
 
@@ -31,18 +32,15 @@ struct PairContents {
   bool superquadrics = false;  ///< some shape is not a sphere
 };
 
-/// A reaction that a chunk receives from another one.
-struct Incoming {
-  std::uint32_t slot;  ///< of the reactions of all chunks
-  std::uint32_t rock;
-};
-
 class PairList {
  public:
   static constexpr std::size_t rocks_per_chunk = 512;
-  static constexpr std::uint32_t no_slot = 0xffffffff;
+  static constexpr std::uint32_t no_queue = 0xffffffff;
 
-  explicit PairList(PairContents contents) : contents_(contents) { start.assign(1, 0); }
+  explicit PairList(PairContents contents) : contents_(contents) {
+    start.assign(1, 0);
+    give_queues();
+  }
 
   /// Finds all pairs closer than the sum of their reaches [m]; what old pairs remember is kept.
   /// @param blocky  1 for rocks with faces; empty where there are none
@@ -62,15 +60,16 @@ class PairList {
   std::vector<std::uint32_t> start;      ///< #rocks + 1: pairs of rock i are start[i] .. start[i + 1]
   std::vector<std::uint32_t> first;      ///< #pairs: i
   std::vector<int> second;               ///< #pairs: j > i
-  std::vector<std::uint32_t> slot;       ///< #pairs: of the reaction on j; no_slot where j is of i's chunk
+  std::vector<std::uint32_t> queue;      ///< #pairs: of the reaction on j; no_queue where j is of i's chunk
   std::vector<std::uint8_t> touching;    ///< #pairs
   std::vector<Vec3> spring;              ///< #pairs: tangential stretch [m]
   std::vector<Vec3> turned;              ///< #pairs or empty: rolling history [rad]
   std::vector<PairMemory> memory;        ///< #pairs or empty: superquadric warm start
   std::vector<double> clear;             ///< #pairs or empty: they cannot touch before coming this closer [m]
-  std::vector<std::uint32_t> out_start;  ///< #chunks + 1: slots of the pairs that leave a chunk, in order
-  std::vector<std::uint32_t> in_start;   ///< #chunks + 1: what a chunk receives ...
-  std::vector<Incoming> incoming;        ///< ... by ascending slot
+  std::vector<std::uint32_t> out_start;    ///< #chunks + 1: queues that leave a chunk, by where they go
+  std::vector<std::uint32_t> in_start;     ///< #chunks + 1: queues that a chunk receives ...
+  std::vector<std::uint32_t> incoming;     ///< ... by ascending number
+  std::vector<std::uint32_t> queue_start;  ///< #queues + 1: first place of each
   CellGrid grid;                         ///< of the last rebuild
 
   bool crosses(std::size_t i, std::size_t j) const { return i / rocks_per_chunk != j / rocks_per_chunk; }
@@ -78,7 +77,7 @@ class PairList {
  private:
   void find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain,
             std::span<const std::uint8_t> blocky);
-  void give_slots();
+  void give_queues();
   void resize_memories(std::size_t pairs);
   void copy_memory(const PairList& from, std::size_t old_pair, std::size_t new_pair);
 

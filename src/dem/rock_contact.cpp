@@ -215,8 +215,7 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, const Candidate& can
   Push& on_a = push[i];
   on_a.force += force_a;
   on_a.torque += torque_a;
-  const std::uint32_t slot = pairs.slot[p];
-  Push& on_b = slot == PairList::no_slot ? push[j] : reactions[slot];
+  Push& on_b = reaction_on(j, p);
   on_b.force -= force_a;
   on_b.torque += torque_b;
 }

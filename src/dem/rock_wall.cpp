@@ -11,7 +11,7 @@ constexpr double deepest_start = 0.25;  // of the smallest semi-axis
 
 void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const StepTime& time) {
   RockWalls& near = near_walls[i];
-  if (!find_touches(chunk, i, {still, surface}, {rocks.x[i], rocks.q[i]}, near)) return;
+  if (!find_touches(chunk, i, {still, surface}, {places[i].x, rocks.q[i]}, near)) return;
   for (WallTouch& touch : near.touches) {
     const Vec3 belt = along_surface(still.surface_velocity(touch.wall, touch.point), touch.normal);
     touch_wall(chunk, i, touch, {belt, belt, Vec3::Zero()}, time);
@@ -22,7 +22,7 @@ void DemSystem::Implementation::walls_of(DemChunk& chunk, std::size_t i, const S
 void DemSystem::Implementation::moving_walls_of(DemChunk& chunk, std::size_t i, const StepTime& time) {
   for (MovingWalls& part : moving) {
     RockWalls& near = part.near[i];
-    const RockPlace place{part.now.to_rest(rocks.x[i]), part.now.q.conjugate() * rocks.q[i]};
+    const RockPlace place{part.now.to_rest(places[i].x), part.now.q.conjugate() * rocks.q[i]};
     if (!find_touches(chunk, i, {part.walls, part.surface}, place, near)) continue;
     for (WallTouch& touch : near.touches) {
       WallTouch in_space = part.to_space(touch);

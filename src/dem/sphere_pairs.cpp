@@ -81,7 +81,7 @@ void DemSystem::Implementation::keep_rows(std::size_t begin, std::size_t end) {
 }
 
 void DemSystem::Implementation::find_spheres(DemChunk& chunk, PairScratch& scratch, std::size_t end) {
-  constexpr std::size_t ahead = 16;  // pairs: by then the second rock has come from memory
+  constexpr std::size_t ahead = 48;  // pairs: by then the second rock has come from memory
   const std::size_t from = pairs.start[scratch.begin], to = pairs.start[end];
   const Vec3 length = scene.domain.box.size();
   MeetingSpheres& found = scratch.spheres;
@@ -119,9 +119,6 @@ void DemSystem::Implementation::find_spheres(DemChunk& chunk, PairScratch& scrat
       const auto k = static_cast<std::size_t>(__builtin_ctz(parted));
       end_pair(chunk, i[k], at[k]);
     }
-
-    for (unsigned left = meet; left != 0; left &= left - 1)
-      __builtin_prefetch(&motions[j[static_cast<std::size_t>(__builtin_ctz(left))]]);
 
     const std::size_t n = found.count;
     store_chosen(separation.x, meet, &found.x[n]);
