@@ -173,12 +173,11 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
   bytes += bytes_of(rocks.mass) + bytes_of(rocks.radius) + bytes_of(rocks.birth) + bytes_of(rocks.wet_dose);
   bytes += bytes_of(places) + bytes_of(motions) + bytes_of(angular) + bytes_of(push) + bytes_of(fluid_force);
   bytes += bytes_of(fluid_torque) + bytes_of(listed_at) + bytes_of(margin);
-  bytes += bytes_of(turned_shapes) + bytes_of(rim_speed) + bytes_of(per_inertia) + bytes_of(reactions) + bytes_of(queued) +
-           bytes_of(room_reach) + bytes_of(near_walls);
+  bytes += bytes_of(turned_shapes) + bytes_of(rim_speed) + bytes_of(per_inertia) + bytes_of(reactions) +
+           bytes_of(queued) + bytes_of(room_reach) + bytes_of(near_walls);
   for (const PairScratch& scratch : pair_scratch)
-    bytes += scratch.spheres.memory_bytes() + bytes_of(scratch.shaped) +
-             bytes_of(scratch.shaped_pairs) + bytes_of(scratch.geometry) + bytes_of(scratch.outcome) +
-             bytes_of(scratch.repeated);
+    bytes += scratch.spheres.memory_bytes() + bytes_of(scratch.shaped) + bytes_of(scratch.shaped_pairs) +
+             bytes_of(scratch.geometry) + bytes_of(scratch.outcome) + bytes_of(scratch.repeated);
   const auto add_near = [&](const std::vector<RockWalls>& all) {
     for (const RockWalls& near : all) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
   };

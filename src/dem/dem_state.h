@@ -38,8 +38,8 @@ struct Body {
 
 /// Force and torque on a rock: one cache line, eight doubles to the lanes.
 struct alignas(64) Push {
-  Vec3 force = Vec3::Zero();  ///< [N]
-  double rock = 0;            ///< whom it is for, where it waits in a queue
+  Vec3 force = Vec3::Zero();   ///< [N]
+  double rock = 0;             ///< whom it is for, where it waits in a queue
   Vec3 torque = Vec3::Zero();  ///< [N m]
   double unused = 0;
 };
@@ -145,7 +145,8 @@ struct DemSystem::Implementation {
   // How far a rock may go before the pairs are listed again, of its bounding radius; beside periodic faces at
   // most so far that it cannot reach another one twice.
   static constexpr double least_margin = 0.03, most_margin = 0.3;
-  static constexpr double longest_move = 0.5;  ///< of the radius in one step: beyond it contacts would be missed
+  static constexpr double longest_move =
+      0.5;  ///< of the radius in one step: beyond it contacts would be missed
 
   DemConfig config;
   DemScene scene;
@@ -163,12 +164,12 @@ struct DemSystem::Implementation {
   bool plain_laws = true;          ///< every pair is linear, without adhesion
 
   Rocks rocks;
-  std::vector<Vec3> angular;        ///< angular momentum of rocks [kg m2/s]; empty where all are spheres
-  std::vector<Vec3> per_inertia;    ///< one over the principal inertia [1/(kg m2)]; empty likewise
+  std::vector<Vec3> angular;      ///< angular momentum of rocks [kg m2/s]; empty where all are spheres
+  std::vector<Vec3> per_inertia;  ///< one over the principal inertia [1/(kg m2)]; empty likewise
   /// What contacts read of the rocks; of spheres among spheres the only copy that is current within steps.
   std::vector<RockPlaceRow> places;
   std::vector<RockMotionRow> motions;
-  std::vector<Push> push;              ///< of contacts, last step
+  std::vector<Push> push;                       ///< of contacts, last step
   std::vector<Vec3> fluid_force, fluid_torque;  ///< empty until set
   std::vector<Vec3> listed_at;                  ///< where each rock was when the pairs were listed [m]
   std::vector<double> margin;                   ///< how far it may go from there [m]
@@ -315,8 +316,8 @@ struct DemSystem::Implementation {
   void exchange_touches(StateArchive& archive, std::vector<RockWalls>& near, std::size_t length);
 };
 
-inline void DemSystem::Implementation::move(DemChunk& chunk, std::size_t i, Vec3& x, const RockMotionRow& motion,
-                                     const StepTime& time) {
+inline void DemSystem::Implementation::move(DemChunk& chunk, std::size_t i, Vec3& x,
+                                            const RockMotionRow& motion, const StepTime& time) {
   const Vec3 by = time.dt * motion.v;
   const double most = longest_move * 0.5 * motion.size;
   if (!(by.squaredNorm() <= most * most)) stop_fast(i, motion.v, time);

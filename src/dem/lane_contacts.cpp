@@ -257,7 +257,8 @@ struct DemSystem::Implementation::LaneContacts {
       // The law of the contact.
       const LaneLaw law = law_of(g);
       const double ratio = s.config.tangential_ratio;
-      const Lanes k_n = s.limits.stiffness_per_size * 2 * size_a * size_b * lanes::reciprocal(size_a + size_b);
+      const Lanes k_n =
+          s.limits.stiffness_per_size * 2 * size_a * size_b * lanes::reciprocal(size_a + size_b);
       const Lanes c_n = 2.0 * law.zeta * lanes::quick_root(k_n * touch.mass_effective);
       const LinearConstants<Lanes> constants{k_n,
                                              ratio * k_n,

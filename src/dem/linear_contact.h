@@ -40,7 +40,8 @@ lanes::Triple<Real> turned_into_plane(const lanes::Triple<Real>& spring, const l
   // A spring that lies along n has no direction left: it is let go.
   const auto has_direction = after > 0.0;
   const Real safe = lanes::select(has_direction, after, Real{} + 1.0);
-  const Real stretch = lanes::select(has_direction, lanes::quick_root(before * lanes::reciprocal(safe)), Real{});
+  const Real stretch =
+      lanes::select(has_direction, lanes::quick_root(before * lanes::reciprocal(safe)), Real{});
   return stretch * across;
 }
 
@@ -120,8 +121,10 @@ lanes::Triple<Real> rolling_moment(const RollingResistance<Real>& c, const lanes
   // Plastic: the spring alone may hold the limit, the dashpot adds nothing once it rolls.
   const Real held = c.stiffness * lanes::quick_root(dot(turned, turned));
   const auto yields = rolls & (held > c.limit);
-  turned = select(yields, c.limit * lanes::reciprocal(select(yields, held, Real{} + 1.0)), Real{} + 1.0) * turned;
-  const Real share = select(rolls, c.limit * lanes::reciprocal_root(select(rolls, size2, Real{} + 1.0)), Real{} + 1.0);
+  turned =
+      select(yields, c.limit * lanes::reciprocal(select(yields, held, Real{} + 1.0)), Real{} + 1.0) * turned;
+  const Real share =
+      select(rolls, c.limit * lanes::reciprocal_root(select(rolls, size2, Real{} + 1.0)), Real{} + 1.0);
   return -share * torque;
 }
 

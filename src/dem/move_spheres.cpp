@@ -1,4 +1,5 @@
-/// The motion of spheres among spheres, whose rows hold velocity, spin and what both are divided by side by side.
+/// The motion of spheres among spheres, whose rows hold velocity, spin and what both are divided by side by
+/// side.
 
 #include <cstring>
 
@@ -20,8 +21,8 @@ void store(const Row& row, void* to) {
 }
 static_assert(sizeof(RockMotionRow) == sizeof(Row) && sizeof(Push) == sizeof(Row));
 
-/// What half a step of `half` seconds adds to a motion. The last operation is an addition of products, so that
-/// the compiler fuses it alike wherever this is inlined.
+/// What half a step of `half` seconds adds to a motion. The last operation is an addition of products, so
+/// that the compiler fuses it alike wherever this is inlined.
 Row half_kick(const Row& motion, const Row& push, double inertia_factor, const Row& gravity_half,
               double half) {
   const double mass = motion[3], size = motion[7];

@@ -70,13 +70,15 @@ void PairList::give_queues() {
   queue.assign(second.size(), no_queue);
   out_start.assign(1, 0);
   queue_start.assign(1, 0);
-  std::vector<std::uint32_t> to;                     // chunk that each queue goes to
-  std::vector<std::uint32_t> crossing(chunks, 0);    // pairs of this chunk that go there
-  std::vector<std::uint32_t> number(chunks, 0);      // of the queue
-  std::vector<std::uint32_t> goes;                   // chunks that any go to
+  std::vector<std::uint32_t> to;                   // chunk that each queue goes to
+  std::vector<std::uint32_t> crossing(chunks, 0);  // pairs of this chunk that go there
+  std::vector<std::uint32_t> number(chunks, 0);    // of the queue
+  std::vector<std::uint32_t> goes;                 // chunks that any go to
   for (std::size_t c = 0; c < chunks; ++c) {
     const std::size_t begin = c * rocks_per_chunk, end = std::min(n, begin + rocks_per_chunk);
-    const auto chunk_of = [&](std::size_t p) { return static_cast<std::size_t>(second[p]) / rocks_per_chunk; };
+    const auto chunk_of = [&](std::size_t p) {
+      return static_cast<std::size_t>(second[p]) / rocks_per_chunk;
+    };
     goes.clear();
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t p = start[i]; p < start[i + 1]; ++p) {

@@ -11,7 +11,8 @@
 /// for all pairs that cross from the one to the other:
 ///
 ///     rocks     [ 0 ... 511 ][ 512 ... 1023 ][ ...       queues of chunk 0: out_start[0] ... out_start[1]
-///     pair (7, 600) of chunk 0 crosses: queue q          received by chunk 1: among incoming[in_start[1] ...]
+///     pair (7, 600) of chunk 0 crosses: queue q          received by chunk 1: among incoming[in_start[1]
+///     ...]
 ///
 /// so no force is written by two threads, and each rock's sum has one order.
 
@@ -66,11 +67,11 @@ class PairList {
   std::vector<Vec3> turned;              ///< #pairs or empty: rolling history [rad]
   std::vector<PairMemory> memory;        ///< #pairs or empty: superquadric warm start
   std::vector<double> clear;             ///< #pairs or empty: they cannot touch before coming this closer [m]
-  std::vector<std::uint32_t> out_start;    ///< #chunks + 1: queues that leave a chunk, by where they go
-  std::vector<std::uint32_t> in_start;     ///< #chunks + 1: queues that a chunk receives ...
-  std::vector<std::uint32_t> incoming;     ///< ... by ascending number
+  std::vector<std::uint32_t> out_start;  ///< #chunks + 1: queues that leave a chunk, by where they go
+  std::vector<std::uint32_t> in_start;   ///< #chunks + 1: queues that a chunk receives ...
+  std::vector<std::uint32_t> incoming;   ///< ... by ascending number
   std::vector<std::uint32_t> queue_start;  ///< #queues + 1: first place of each
-  CellGrid grid;                         ///< of the last rebuild
+  CellGrid grid;                           ///< of the last rebuild
 
   bool crosses(std::size_t i, std::size_t j) const { return i / rocks_per_chunk != j / rocks_per_chunk; }
 

@@ -137,29 +137,38 @@ TEST(PairList, ListsBlockyRocksOnceForEachCopyAndKeepsTheCopiesApart) {
   EXPECT_EQ(list.clear, places(list));
 }
 
-TEST(PairList, GivesEachPairThatLeavesItsChunkASlotOfItsOwn) {
+TEST(PairList, QueuesEachPairThatLeavesItsChunkWhereNoOtherChunkWrites) {
   Random random(4);
   std::vector<Vec3> x;
   std::vector<double> reach;
-  const PairList list = random_list(900, x, reach, random);
-  std::vector<std::uint32_t> expected;  // second rocks in the order of the slots
-  for (std::size_t i = 0; i < list.rock_count(); ++i)
-    for (std::size_t p = list.start[i]; p < list.start[i + 1]; ++p)
-      if (list.crosses(i, static_cast<std::size_t>(list.second[p])))
-        expected.push_back(static_cast<std::uint32_t>(list.second[p]));
-  ASSERT_EQ(list.incoming.size(), expected.size());
-  std::vector<int> met(expected.size(), 0);
+  const PairList list = random_list(1700, x, reach, random);
+  const std::size_t queues = list.incoming.size();
+  ASSERT_EQ(list.out_start.back(), queues);
+  ASSERT_EQ(list.queue_start.size(), queues + 1);
+  std::vector<std::size_t> goes_to(queues), most(queues, 0);
+  std::vector<int> met(queues, 0);
   for (std::size_t c = 0; c + 1 < list.in_start.size(); ++c)
     for (std::size_t k = list.in_start[c]; k < list.in_start[c + 1]; ++k) {
-      const auto [slot, rock] = list.incoming[k];
-      ++met[slot];
-      EXPECT_EQ(rock, expected[slot]);
-      EXPECT_EQ(rock / PairList::rocks_per_chunk, c);
+      goes_to[list.incoming[k]] = c;
+      ++met[list.incoming[k]];
       if (k > list.in_start[c]) {
-        EXPECT_LT(list.incoming[k - 1].slot, slot);
+        EXPECT_LT(list.incoming[k - 1], list.incoming[k]);
       }
     }
-  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(met.size()));
+  EXPECT_EQ(std::count(met.begin(), met.end(), 1), static_cast<std::ptrdiff_t>(queues));
+  for (std::size_t i = 0; i < list.rock_count(); ++i)
+    for (std::size_t p = list.start[i]; p < list.start[i + 1]; ++p) {
+      const auto j = static_cast<std::size_t>(list.second[p]);
+      const std::size_t chunk = i / PairList::rocks_per_chunk;
+      EXPECT_EQ(list.first[p], i);
+      EXPECT_EQ(list.queue[p] != PairList::no_queue, list.crosses(i, j));
+      if (!list.crosses(i, j)) continue;
+      EXPECT_GE(list.queue[p], list.out_start[chunk]);
+      EXPECT_LT(list.queue[p], list.out_start[chunk + 1]);
+      EXPECT_EQ(goes_to[list.queue[p]], j / PairList::rocks_per_chunk);
+      ++most[list.queue[p]];
+    }
+  for (std::size_t q = 0; q < queues; ++q) EXPECT_EQ(list.queue_start[q + 1] - list.queue_start[q], most[q]);
 }
 
 TEST(PairList, MissesNoContactOfMovingSuperquadrics) {
