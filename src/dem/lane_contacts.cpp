@@ -240,7 +240,7 @@ struct DemSystem::Implementation::LaneContacts {
     }
   }
 
-  void touch(std::size_t contacts, bool are_shaped) {
+  [[gnu::flatten]] void touch(std::size_t contacts, bool are_shaped) {
     for (std::size_t first = 0; first < contacts; first += kLanes) {
       const Group g = are_shaped ? gather(std::span<const Candidate>(scratch.shaped).subspan(first))
                                  : gather(scratch.spheres, first);
