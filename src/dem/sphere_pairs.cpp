@@ -86,8 +86,8 @@ void DemSystem::Implementation::find_spheres(DemChunk& chunk, PairScratch& scrat
   const Vec3 length = scene.domain.box.size();
   MeetingSpheres& found = scratch.spheres;
   found.make_room(to - from);
-  for (std::size_t p = from; p < to; p += kLanes) {
-    const std::size_t count = std::min<std::size_t>(kLanes, to - p);
+  // Compiled twice: for as many pairs as there are lanes, and for those left over.
+  const auto look_at = [&](std::size_t p, std::size_t count) __attribute__((always_inline)) {
     LaneIndices at, i, j;
     lanes::Rows row_i, row_j;
     for (std::size_t k = 0; k < kLanes; ++k) {
@@ -130,7 +130,10 @@ void DemSystem::Implementation::find_spheres(DemChunk& chunk, PairScratch& scrat
     store_chosen(i, meet, &found.i[n]);
     store_chosen(j, meet, &found.j[n]);
     found.count += static_cast<std::size_t>(__builtin_popcount(meet));
-  }
+  };
+  std::size_t p = from;
+  for (; p + kLanes <= to; p += kLanes) look_at(p, kLanes);
+  if (p < to) look_at(p, to - p);
   found.repeat_last();
 }
 
