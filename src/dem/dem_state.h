@@ -145,8 +145,8 @@ struct DemSystem::Implementation {
   // How far a rock may go before the pairs are listed again, of its bounding radius; beside periodic faces at
   // most so far that it cannot reach another one twice.
   static constexpr double least_margin = 0.03, most_margin = 0.3;
-  static constexpr double longest_move =
-      0.5;  ///< of the radius in one step: beyond it contacts would be missed
+  // Of the radius in one step: beyond it contacts would be missed.
+  static constexpr double longest_move = 0.5;
 
   DemConfig config;
   DemScene scene;
