@@ -135,7 +135,7 @@ unused "program, nothing due: output" rocks_program 'src/(output|reports)/'
 {
   echo "# What is left out costs nothing"
   echo
-  echo "- commit: $(git rev-parse --short=12 HEAD)$(git diff --quiet HEAD || echo ', with changes')"
+  echo "- commit: $(git rev-parse --short=12 HEAD)$(git diff --quiet HEAD -- . ':!reports' || echo ', with changes')"
   echo "- command: \`scripts/leave_out.sh\`"
   echo "- compiler: $(c++ --version | head -n 1), \`-O3 -g1\`, no processor named"
   echo "- counted by: $(valgrind --version), cachegrind, one thread"

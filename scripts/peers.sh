@@ -100,7 +100,7 @@ done
 {
   echo "# Spheres beside LIGGGHTS and LAMMPS"
   echo
-  echo "- commit: $(git rev-parse --short=12 HEAD)$(git diff --quiet HEAD || echo ', with changes')"
+  echo "- commit: $(git rev-parse --short=12 HEAD)$(git diff --quiet HEAD -- . ':!reports' || echo ', with changes')"
   echo "- command: \`scripts/peers.sh $repeats $steps\`"
   echo "- compiler: $(c++ --version | head -n 1), \`-O3 -march=native -fno-math-errno -fno-trapping-math\`; the peers as Debian built them"
   echo "- packages: liggghts $(dpkg-query -W -f='${Version}' liggghts), lammps $(dpkg-query -W -f='${Version}' lammps)"
