@@ -19,6 +19,11 @@ Row load(const void* from) {
 void store(const Row& row, void* to) {
   std::memcpy(to, &row, sizeof row);
 }
+double sum_of(const Row& row) {
+  double sum = 0;
+  for (int k = 0; k < 8; ++k) sum += row[k];
+  return sum;
+}
 static_assert(sizeof(RockMotionRow) == sizeof(Row) && sizeof(Push) == sizeof(Row));
 
 /// What half a step of `half` seconds adds to a motion. The last operation is an addition of products, so
@@ -66,7 +71,7 @@ void DemSystem::Implementation::move_spheres(DemChunk& chunk, std::size_t begin,
     store(motion, &motions[i]);
     move(chunk, i, places[i].x, motions[i], time);
   }
-  stop_if_wild(wild[0] + wild[1] + wild[2] + wild[4] + wild[5] + wild[6], begin, end, time);
+  stop_if_wild(sum_of(wild), begin, end, time);
 }
 
 void DemSystem::Implementation::take_from_rows(std::size_t begin, std::size_t end) {
@@ -90,7 +95,7 @@ void DemSystem::Implementation::end_spheres(std::size_t begin, std::size_t end, 
     store(ended, &motions[i]);
   }
   take_from_rows(begin, end);
-  stop_if_wild(wild[0] + wild[1] + wild[2] + wild[4] + wild[5] + wild[6], begin, end, time);
+  stop_if_wild(sum_of(wild), begin, end, time);
 }
 
 }  // namespace sluice
