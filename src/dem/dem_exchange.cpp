@@ -179,7 +179,7 @@ std::size_t DemSystem::Implementation::memory_bytes() const {
     bytes += scratch.spheres.memory_bytes() + bytes_of(scratch.shaped) + bytes_of(scratch.shaped_pairs) +
              bytes_of(scratch.geometry) + bytes_of(scratch.outcome) + bytes_of(scratch.repeated);
   const auto add_near = [&](const std::vector<RockWalls>& all) {
-    for (const RockWalls& near : all) bytes += bytes_of(near.triangles) + bytes_of(near.touches);
+    for (const RockWalls& near : all) bytes += near.parts.memory_bytes() + bytes_of(near.touches);
   };
   add_near(near_walls);
   for (const MovingWalls& part : moving) {

@@ -297,7 +297,7 @@ struct DemSystem::Implementation {
   bool find_touches(DemChunk& chunk, std::size_t i, const WallsAndSurface& part, const RockPlace& place,
                     RockWalls& near);
   void find_superquadric(DemChunk& chunk, std::size_t i, const WallsAndSurface& part, const RockPlace& place,
-                         const RockWalls& near);
+                         RockWalls& near);
   void touch_wall(DemChunk& chunk, std::size_t i, WallTouch& touch, const SurfaceMotion& moves,
                   const StepTime& time);
   void count_touches(DemChunk& chunk, std::size_t i, const RockWalls& near, const StepTime& time) const;

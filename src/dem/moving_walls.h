@@ -18,11 +18,11 @@
 
 namespace sluice {
 
-/// Triangles near a rock, and its contacts with them.
+/// What of the walls is near a rock, and its contacts with them.
 struct RockWalls {
   Vec3 at = Vec3::Constant(std::numeric_limits<double>::infinity());  ///< where the triangles were looked up
-  std::vector<int> triangles;
   std::vector<WallTouch> touches;
+  WallParts parts;
 };
 
 /// How a wall moves where a rock touches it.

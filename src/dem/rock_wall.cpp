@@ -50,15 +50,16 @@ void DemSystem::Implementation::count_touches(DemChunk& chunk, std::size_t i, co
 
 /// Contacts of a rock, or of each of its copies, into the chunk's scratch.
 void DemSystem::Implementation::find_superquadric(DemChunk& chunk, std::size_t i, const WallsAndSurface& part,
-                                                  const RockPlace& place, const RockWalls& near) {
+                                                  const RockPlace& place, RockWalls& near) {
   Superquadric shape = superquadric(i, place.x);
   const double deepest = deepest_start * shape.semi_axes.minCoeff();
-  const auto find = [&](const Quat& q, std::span<const WallTouch> before) {
+  const auto find = [&](std::size_t copy, const Quat& q, std::span<const WallTouch> before) {
     shape.q = q;
-    find_superquadric_contacts(part.surface, near.triangles, shape, rocks.radius[i], deepest, before,
+    find_superquadric_contacts(part.surface, near.parts, copy, shape, rocks.radius[i], deepest, before,
                                chunk.scratch);
   };
-  if (!is_blocky(i)) return find(place.q, near.touches);
+  near.parts.begin_search(is_blocky(i) ? face_copies : 1);
+  if (!is_blocky(i)) return find(0, place.q, near.touches);
   const FaceCopies& copies_here = copies_of(i);
   shape.semi_axes = copies_here.semi_axes * rocks.size[i];
   WallScratch& scratch = chunk.scratch;
@@ -68,7 +69,7 @@ void DemSystem::Implementation::find_superquadric(DemChunk& chunk, std::size_t i
     const int copy = static_cast<int>(c);
     const auto next =
         std::find_if(before, near.touches.end(), [&](const WallTouch& t) { return t.copy != copy; });
-    find(place.q * copies_here.turns[c], {before, next});
+    find(c, place.q * copies_here.turns[c], {before, next});
     for (WallTouch& touch : scratch.found) touch.copy = copy;
     scratch.of_copies.insert(scratch.of_copies.end(), scratch.found.begin(), scratch.found.end());
     before = next;
@@ -82,14 +83,21 @@ bool DemSystem::Implementation::find_touches(DemChunk& chunk, std::size_t i, con
   const double margin = wall_skin * body.radius;
   if (!((place.x - near.at).squaredNorm() < margin * margin)) {
     near.at = place.x;
-    part.walls.query().triangles_in(Box{place.x, place.x}.grown(body.radius + margin), near.triangles);
-    std::erase_if(near.triangles, [&](int t) { return part.surface.triangle(t).patch < 0; });
+    part.walls.query().triangles_in(Box{place.x, place.x}.grown(body.radius + margin), near.parts.triangles);
+    std::erase_if(near.parts.triangles, [&](int t) { return part.surface.triangle(t).patch < 0; });
+    near.parts.list(part.surface);
   }
-  if (near.triangles.empty() && near.touches.empty()) return false;
-  if (is_sphere[static_cast<std::size_t>(body.shape)]) {
-    find_sphere_contacts(part.surface, near.triangles, place.x, body.radius, near.touches, chunk.scratch);
+  if (near.parts.triangles.empty() && near.touches.empty()) return false;
+  const bool round = has_sphere_shape(body.shape);
+  near.parts.follow(place.x, place.q, body.radius, !round);
+  if (near.parts.quiet() && near.touches.empty()) return false;
+  if (round) {
+    const double gap = find_sphere_contacts(part.surface, near.parts.triangles, place.x, body.radius,
+                                            near.touches, chunk.scratch);
+    near.parts.set_least_gap(gap, body.radius);
   } else {
     find_superquadric(chunk, i, part, place, near);
+    near.parts.end_search();
   }
   if (chunk.scratch.found.empty() && near.touches.empty()) return false;
   carry_history(near.touches, chunk.scratch, [&](const WallTouch& old) {

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "dem/wall_contact.h"
 
@@ -44,16 +45,21 @@ bool superseded(const WallSurface& surface, const std::vector<WallHit>& hits, st
 }
 }  // namespace
 
-void find_sphere_contacts(const WallSurface& surface, std::span<const int> triangles, const Vec3& x,
-                          double radius, std::span<const WallTouch> before, WallScratch& scratch) {
+double find_sphere_contacts(const WallSurface& surface, std::span<const int> triangles, const Vec3& x,
+                            double radius, std::span<const WallTouch> before, WallScratch& scratch) {
   scratch.found.clear();
   scratch.hits.clear();
+  double least2 = std::numeric_limits<double>::infinity();
   for (int index : triangles) {
     const WallTriangle& t = surface.triangle(index);
     const double height = t.normal.dot(x) - t.offset;
-    if (!(std::abs(height) < radius)) continue;
+    if (std::abs(height) >= radius) {
+      least2 = std::min(least2, height * height);
+      continue;
+    }
     const Vec3 nearest = closest_on_triangle(x, t.corner[0], t.corner[1], t.corner[2]);
     const double distance2 = (x - nearest).squaredNorm();
+    least2 = std::min(least2, distance2);
     if (distance2 < radius * radius) scratch.hits.push_back({nearest, distance2, index});
   }
   const double tolerance = same_place * radius;
@@ -81,6 +87,7 @@ void find_sphere_contacts(const WallSurface& surface, std::span<const int> trian
     touch.point = x + (radius - 0.5 * touch.overlap) * touch.normal;
     scratch.found.push_back(touch);
   }
+  return std::sqrt(least2) - radius;
 }
 
 }  // namespace sluice

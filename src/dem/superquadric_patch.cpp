@@ -11,7 +11,7 @@ constexpr double same_place = 1e-6;  // of the least semi-axis: contacts closer 
 
 struct Search {
   const WallSurface& surface;
-  std::span<const int> triangles;
+  std::span<const int> triangles;  ///< all that are near
   const Superquadric& body;
   double bounding_radius;
   std::span<const WallTouch> before;
@@ -35,9 +35,10 @@ Vec3 on_wall(const WallTouch& touch) {
 }
 
 /// The foot of the body's lowest point must lie in one of the patch's triangles.
-void add_face(const Search& s, const WallTriangle& patch, double deepest) {
+/// @return gap that the body is apart from its plane at least; not above 0 where it reaches through [m]
+double add_face(const Search& s, const WallTriangle& patch, double deepest) {
   const double height = patch.normal.dot(s.body.x) - patch.offset;
-  if (std::abs(height) >= s.bounding_radius) return;
+  if (std::abs(height) >= s.bounding_radius) return std::abs(height) - s.bounding_radius;
   const WallTouch* known = remembered(s, patch.patch, -1);
   WallTouch touch;
   touch.patch = patch.patch;
@@ -45,7 +46,7 @@ void add_face(const Search& s, const WallTriangle& patch, double deepest) {
   touch.side = known ? known->side : height >= 0 ? 1 : -1;
   const Vec3 n = touch.side * patch.normal;
   const ContactGeometry geometry = superquadric_plane(s.body, patch.offset * patch.normal, n);
-  if (geometry.overlap <= 0 || (!known && geometry.overlap > deepest)) return;
+  if (geometry.overlap <= 0 || (!known && geometry.overlap > deepest)) return -geometry.overlap;
   touch.normal = geometry.normal;
   touch.point = geometry.point;
   touch.overlap = geometry.overlap;
@@ -55,6 +56,7 @@ void add_face(const Search& s, const WallTriangle& patch, double deepest) {
     return triangle.patch == patch.patch && inside_triangle(triangle, foot, 0);
   });
   if (inside) s.scratch.found.push_back(touch);
+  return -geometry.overlap;
 }
 
 /// Drops faces that lie behind another one that is touched, as the far face of a thin plate does.
@@ -92,20 +94,23 @@ bool already_touched(const Search& s, const Vec3& place) {
   return false;
 }
 
-/// True if a plane through the feature's point nearest to the centre parts the two.
-bool apart(const Search& s, const WallFeature& feature) {
+/// Gap at least between the two, by a plane through the feature's point nearest to the centre; below 0 where
+/// that does not part them [m].
+double gap_at_least(const Search& s, const WallFeature& feature) {
   const Vec3 along = feature.end[1] - feature.end[0];
   const double length2 = along.squaredNorm();
   const double t = length2 > 0 ? std::clamp(along.dot(s.body.x - feature.end[0]) / length2, 0.0, 1.0) : 0.0;
   const Vec3 away = s.body.x - feature.end[0] - t * along;
   const double distance = away.norm();
-  if (distance >= s.bounding_radius) return true;
-  if (distance == 0) return false;
-  return support_height(s.body.semi_axes, s.body.m, s.body.q.conjugate() * (-away / distance)) <= distance;
+  if (distance >= s.bounding_radius) return distance - s.bounding_radius;
+  if (distance == 0) return -s.bounding_radius;
+  return distance - support_height(s.body.semi_axes, s.body.m, s.body.q.conjugate() * (-away / distance));
 }
 
-void add_feature(const Search& s, const WallFeature& feature, int label) {
-  if (apart(s, feature)) return;
+/// @return gap as gap_at_least
+double add_feature(const Search& s, const WallFeature& feature, int label) {
+  const double gap = gap_at_least(s, feature);
+  if (gap >= 0) return gap;
   const bool is_edge = label % 2 == 0;
   const WallTouch* known = remembered(s, feature.patch, label);
   WallTouch touch;
@@ -117,43 +122,37 @@ void add_feature(const Search& s, const WallFeature& feature, int label) {
   const bool touches =
       is_edge ? superquadric_segment(s.body, feature.end[0], feature.end[1], touch.start, geometry)
               : superquadric_point(s.body, feature.end[0], touch.start, geometry);
-  if (!touches || geometry.overlap <= 0 || !feature.admits(-geometry.normal)) return;
+  if (!touches || geometry.overlap <= 0 || !feature.admits(-geometry.normal)) return gap;
   touch.normal = geometry.normal;
   touch.point = geometry.point;
   touch.overlap = geometry.overlap;
   if (!already_touched(s, on_wall(touch))) s.scratch.found.push_back(touch);
-}
-
-template <class Id>
-void unique_ids(const Search& s, std::vector<int>& ids, const Id& id) {
-  ids.clear();
-  for (int t : s.triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      if (const int value = id(s.surface.triangle(t), k); value >= 0) ids.push_back(value);
-  std::sort(ids.begin(), ids.end());
-  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return gap;
 }
 }  // namespace
 
-void find_superquadric_contacts(const WallSurface& surface, std::span<const int> triangles,
+void find_superquadric_contacts(const WallSurface& surface, WallParts& parts, std::size_t copy,
                                 const Superquadric& body, double bounding_radius, double deepest,
                                 std::span<const WallTouch> before, WallScratch& scratch) {
   scratch.found.clear();
-  const Search s{
-      surface, triangles, body, bounding_radius, before, scratch, same_place * body.semi_axes.minCoeff()};
-  std::vector<int>& ids = scratch.features;
-  ids.clear();
-  for (int t : triangles) {
-    const WallTriangle& triangle = surface.triangle(t);
-    if (std::find(ids.begin(), ids.end(), triangle.patch) != ids.end()) continue;
-    ids.push_back(triangle.patch);
-    add_face(s, triangle, deepest);
-  }
+  const Search s{surface,
+                 parts.triangles,
+                 body,
+                 bounding_radius,
+                 before,
+                 scratch,
+                 same_place * body.semi_axes.minCoeff()};
+  std::size_t part = 0;
+  const auto look_at = [&](std::span<const int> some, const auto& add) {
+    for (const int one : some) {
+      if (!parts.is_clear(copy, part)) parts.set_gap(copy, part, add(one), bounding_radius);
+      ++part;
+    }
+  };
+  look_at(parts.patches(), [&](int t) { return add_face(s, surface.triangle(t), deepest); });
   drop_hidden_faces(s);
-  unique_ids(s, ids, [](const WallTriangle& t, std::size_t k) { return t.edge[k]; });
-  for (int e : ids) add_feature(s, surface.edge(e), 2 * e);
-  unique_ids(s, ids, [](const WallTriangle& t, std::size_t k) { return t.vertex[k]; });
-  for (int v : ids) add_feature(s, surface.vertex(v), 2 * v + 1);
+  look_at(parts.edges(), [&](int e) { return add_feature(s, surface.edge(e), 2 * e); });
+  look_at(parts.vertices(), [&](int v) { return add_feature(s, surface.vertex(v), 2 * v + 1); });
 }
 
 }  // namespace sluice

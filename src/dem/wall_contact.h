@@ -9,6 +9,7 @@
 
 #include "base/vec.h"
 #include "dem/superquadric_contact.h"
+#include "dem/wall_parts.h"
 #include "dem/wall_surface.h"
 
 namespace sluice {
@@ -40,17 +41,18 @@ struct WallScratch {
   std::vector<WallTouch> of_copies;  ///< found for the copies before, of a blocky rock
   std::vector<WallHit> hits;
   std::vector<std::uint8_t> taken;
-  std::vector<int> features;
 };
 
 /// Contacts of a sphere with the triangles given (ascending), into `scratch.found`, history left blank.
 /// @param before  its contacts of the last step: they fix the side on which it is
-void find_sphere_contacts(const WallSurface& surface, std::span<const int> triangles, const Vec3& x,
-                          double radius, std::span<const WallTouch> before, WallScratch& scratch);
+/// @return gap to the nearest of them at least, not above 0 where it touches [m]
+double find_sphere_contacts(const WallSurface& surface, std::span<const int> triangles, const Vec3& x,
+                            double radius, std::span<const WallTouch> before, WallScratch& scratch);
 
-/// The same for a superquadric; a contact with a face that is not known must begin with an overlap
-/// below `deepest` [m], or it is the far part of a rock that reaches around an edge.
-void find_superquadric_contacts(const WallSurface& surface, std::span<const int> triangles,
+/// The same for a superquadric, or one of the copies that it is; a contact with a face that is not known must
+/// begin with an overlap below `deepest` [m], or it is the far part of a rock that reaches around an edge.
+/// @param parts  near it; begin_search was called
+void find_superquadric_contacts(const WallSurface& surface, WallParts& parts, std::size_t copy,
                                 const Superquadric& body, double bounding_radius, double deepest,
                                 std::span<const WallTouch> before, WallScratch& scratch);
 

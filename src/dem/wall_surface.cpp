@@ -97,6 +97,8 @@ WallSurface::WallSurface(const Walls& walls) {
     const bool has_area = triangle.normal.squaredNorm() > 0.5 && corners[t][0] != corners[t][1] &&
                           corners[t][1] != corners[t][2] && corners[t][2] != corners[t][0];
     triangle.patch = solid && has_area ? -2 : -1;  // -2: waits for its patch
+    for (std::size_t k = 0; k < 3; ++k)
+      triangle.inward[k] = has_area ? inward(triangle, k) : Vec3(Vec3::Zero());
   }
   merge_patches(corners, tolerance);
   find_features(corners);
@@ -146,7 +148,7 @@ void WallSurface::find_features(const std::vector<std::array<int, 3>>& corners) 
   for (const auto& [ends, sides] : edges_of(corners, triangles_)) {
     WallFeature edge;
     for (const auto& [t, k] : sides)
-      edge.onward.push_back(inward(triangles_[static_cast<std::size_t>(t)], static_cast<std::size_t>(k)));
+      edge.onward.push_back(triangles_[static_cast<std::size_t>(t)].inward[static_cast<std::size_t>(k)]);
     if (goes_on_flat(edge.onward)) continue;
     const WallTriangle& first = triangles_[static_cast<std::size_t>(sides.front()[0])];
     const auto side = static_cast<std::size_t>(sides.front()[1]);
@@ -189,7 +191,7 @@ std::size_t WallSurface::memory_bytes() const {
 
 bool inside_triangle(const WallTriangle& triangle, const Vec3& x, double tolerance) {
   for (std::size_t k = 0; k < 3; ++k)
-    if (inward(triangle, k).dot(x - triangle.corner[k]) < -tolerance) return false;
+    if (triangle.inward[k].dot(x - triangle.corner[k]) < -tolerance) return false;
   return true;
 }
 

@@ -21,6 +21,7 @@ struct WallTriangle {
   int wall = 0;
   std::array<int, 3> edge{-1, -1, -1};    ///< from corner k to k + 1; -1 where the surface goes on flat
   std::array<int, 3> vertex{-1, -1, -1};  ///< -1 where no edge ends
+  std::array<Vec3, 3> inward;             ///< unit, in its plane, away from side k into it; only of a patch's
 };
 
 /// An edge or a vertex: a body touches it only along directions u (wall to body) with u . d <= 0 for
