@@ -46,6 +46,7 @@ CouplingGrid::CouplingGrid(const Domain& domain, double fluid_spacing, double na
   for (int l = finest_; l < coarsest_; ++l)
     for (std::size_t n = 0; n < level(l).fluid.size(); ++n)
       level(l).up.push_back(weights(l + 1, place_of(l, static_cast<int>(n))));
+  for (int l = finest_ + 1; l <= coarsest_; ++l) list_down(l);
   of_level_.resize(levels_.size());
 }
 
@@ -57,6 +58,7 @@ void CouplingGrid::make(int l) {
   level.rock.assign(n, {});
   level.acceleration.assign(n, {});
   level.packed.assign(n, 0.0);
+  level.asked.assign(n, 0);
   for (std::size_t i = 0; i < n; ++i) {
     const int node = static_cast<int>(i);
     const int index[3] = {node % level.nodes.x(), (node / level.nodes.x()) % level.nodes.y(),
@@ -124,45 +126,65 @@ Vec3 CouplingLevel::water_spin(const LevelWeights& place) const {
                     gradient(1, 0) - gradient(0, 1));
 }
 
-LevelWeights CouplingGrid::weights(int l, const Vec3& x) const {
+LevelPlace CouplingGrid::place(int l, const Vec3& x) const {
   const CouplingLevel& level = this->level(l);
-  int index[3][2];
-  double share[3][2];
+  const std::array<int, 3> stride{1, level.nodes.x(), level.nodes.x() * level.nodes.y()};
+  LevelPlace out;
   for (int k = 0; k < 3; ++k) {
+    const auto axis = static_cast<std::size_t>(k);
     const double place = (x[k] - domain_.box.lo[k]) * level.per_spacing[k];
     const double floor = std::floor(place);
     const int n = level.nodes[k];
     int low = static_cast<int>(floor), high;
-    double upper;
     if (domain_.periodic(k)) {
       while (low < 0) low += n;
       while (low >= n) low -= n;
       high = low + 1 == n ? 0 : low + 1;
-      upper = place - floor;
+      out.upper[axis] = place - floor;
     } else {
       low = std::clamp(low, 0, n - 2);
       high = low + 1;
-      upper = std::clamp(place - low, 0.0, 1.0);
+      out.upper[axis] = std::clamp(place - low, 0.0, 1.0);
     }
-    index[k][0] = low;
-    index[k][1] = high;
-    share[k][0] = 1 - upper;
-    share[k][1] = upper;
+    out.low += stride[axis] * low;
+    out.next[axis] = stride[axis] * (high - low);
+    if (k == level.slab_axis) out.slab = level.first_slab + low;
   }
+  return out;
+}
+
+LevelWeights LevelPlace::weights() const {
   LevelWeights out;
-  out.slab = level.first_slab + index[level.slab_axis][0];
-  const int stride_y = level.nodes.x(), stride_z = level.nodes.x() * level.nodes.y();
+  out.slab = slab;
+  const double first[3] = {1 - upper[0], 1 - upper[1], 1 - upper[2]};
   for (std::size_t k = 0; k < 2; ++k)
     for (std::size_t j = 0; j < 2; ++j) {
-      const int row = stride_y * index[1][j] + stride_z * index[2][k];
-      const double of_row = share[1][j] * share[2][k];
+      const int row = low + (j == 0 ? 0 : next[1]) + (k == 0 ? 0 : next[2]);
+      const double of_row = (j == 0 ? first[1] : upper[1]) * (k == 0 ? first[2] : upper[2]);
       const std::size_t c = 4 * k + 2 * j;
-      out.node[c] = row + index[0][0];
-      out.node[c + 1] = row + index[0][1];
-      out.weight[c] = share[0][0] * of_row;
-      out.weight[c + 1] = share[0][1] * of_row;
+      out.node[c] = row;
+      out.node[c + 1] = row + next[0];
+      out.weight[c] = first[0] * of_row;
+      out.weight[c + 1] = upper[0] * of_row;
     }
   return out;
+}
+
+/// Turns `up` of the next finer level round.
+void CouplingGrid::list_down(int l) {
+  CouplingLevel& level = this->level(l);
+  const std::vector<LevelWeights>& up = this->level(l - 1).up;
+  const auto each = [&](const auto& body) {
+    for (std::size_t n = 0; n < up.size(); ++n)
+      for (std::size_t c = 0; c < 8; ++c)
+        if (up[n].weight[c] > 0) body(static_cast<std::size_t>(up[n].node[c]), static_cast<int>(n));
+  };
+  level.down_begin.assign(level.fluid.size() + 1, 0);
+  each([&](std::size_t to, int) { ++level.down_begin[to + 1]; });
+  for (std::size_t n = 0; n < level.fluid.size(); ++n) level.down_begin[n + 1] += level.down_begin[n];
+  level.down.resize(static_cast<std::size_t>(level.down_begin.back()));
+  std::vector<int> next(level.down_begin.begin(), level.down_begin.end() - 1);
+  each([&](std::size_t to, int from) { level.down[static_cast<std::size_t>(next[to]++)] = from; });
 }
 
 void CouplingGrid::clear_solids() {
@@ -221,6 +243,46 @@ void CouplingGrid::list_wet(int l) {
   }
 }
 
+/// Nodes that rocks were added to, and those of finer levels through which fluid comes to them.
+void CouplingGrid::find_asked() {
+  const auto ask = [&](CouplingLevel& level, int node) {
+    std::uint8_t& asked = level.asked[static_cast<std::size_t>(node)];
+    if (!asked) level.all_asked.push_back(node);
+    asked = 1;
+  };
+  for (int l = coarsest_; l >= finest_; --l) {
+    CouplingLevel& level = this->level(l);
+    for (const int n : level.all_asked) level.asked[static_cast<std::size_t>(n)] = 0;
+    level.all_asked.clear();
+    for (int s = 0; s < slabs_of(l); ++s)
+      for (const int n : rocky_[static_cast<std::size_t>(level.first_slab + s)]) ask(level, n);
+    if (l == coarsest_) continue;
+    const CouplingLevel& coarser = this->level(l + 1);
+    for (const int n : coarser.all_asked)
+      for (int d = coarser.down_begin[static_cast<std::size_t>(n)];
+           d < coarser.down_begin[static_cast<std::size_t>(n) + 1]; ++d)
+        ask(level, coarser.down[static_cast<std::size_t>(d)]);
+  }
+}
+
+void CouplingGrid::place_fluid(const FluidNodes& nodes) {
+  find_asked();
+  const CouplingLevel& finest = level(finest_);
+  place_of_fluid_.resize(nodes.count());
+  parallel_for(nodes.count(), [&](std::size_t i) {
+    LevelPlace& place = place_of_fluid_[i];
+    place.slab = -1;
+    if (!(nodes.mass[i] > 0)) return;
+    place = this->place(finest_, nodes.x[i]);
+    const LevelWeights at = place.weights();
+    bool asked = false;
+    for (std::size_t c = 0; c < 8; ++c)
+      asked = asked || (at.weight[c] > 0 && finest.asked[static_cast<std::size_t>(at.node[c])]);
+    if (!asked) place.slab = -1;
+  });
+  of_fluid_.sort(nodes.count(), slab_count(), [&](std::size_t i) { return place_of_fluid_[i].slab; });
+}
+
 void CouplingGrid::gather(const FluidNodes& nodes) {
   clear_fluid();
   const auto add = [&](CouplingLevel& level, std::size_t slab, const LevelWeights& place, NodeLanes sums) {
@@ -233,13 +295,12 @@ void CouplingGrid::gather(const FluidNodes& nodes) {
   };
 
   CouplingLevel& finest = level(finest_);
-  of_fluid_.sort(nodes.count(), slab_count(),
-                 [&](std::size_t i) { return nodes.mass[i] > 0 ? weights(finest_, nodes.x[i]).slab : -1; });
+  place_fluid(nodes);
   each_slab(of_fluid_, [&](std::size_t slab, std::span<const std::uint32_t> items) {
     for (const std::uint32_t i : items) {
       const Vec3& v = nodes.v[i];
       const NodeLanes of_one{1, v.x(), v.y(), v.z(), nodes.density[i], nodes.viscosity[i], 0, 0};
-      add(finest, slab, weights(finest_, nodes.x[i]), nodes.mass[i] * of_one);
+      add(finest, slab, place_of_fluid_[i].weights(), nodes.mass[i] * of_one);
     }
   });
   list_wet(finest_);
@@ -278,8 +339,10 @@ void CouplingGrid::solids_fraction(const FluidNodes& nodes, std::vector<double>&
   }
   fraction.resize(nodes.count());
   const CouplingLevel& finest = level(finest_);
-  parallel_for(nodes.count(),
-               [&](std::size_t i) { fraction[i] = from(finest, weights(finest_, nodes.x[i])); });
+  parallel_for(nodes.count(), [&](std::size_t i) {
+    const LevelPlace& place = place_of_fluid_[i];
+    fraction[i] = place.slab < 0 ? 0.0 : from(finest, place.weights());
+  });
 }
 
 void CouplingGrid::gather_acceleration(const FluidNodes& nodes, const std::vector<Vec3>& acceleration) {
@@ -292,7 +355,7 @@ void CouplingGrid::gather_acceleration(const FluidNodes& nodes, const std::vecto
   each_slab(of_fluid_, [&](std::size_t, std::span<const std::uint32_t> items) {
     for (const std::uint32_t i : items) {
       const Vec3 sum = nodes.mass[i] * acceleration[i];
-      add(level(finest_), weights(finest_, nodes.x[i]), Lanes{sum.x(), sum.y(), sum.z(), 0});
+      add(level(finest_), place_of_fluid_[i].weights(), Lanes{sum.x(), sum.y(), sum.z(), 0});
     }
   });
   for (int l = finest_; l < coarsest_; ++l) {
@@ -339,7 +402,11 @@ void CouplingGrid::scatter(const FluidNodes& nodes, FromRocks& out) {
   out.displaced.resize(nodes.count());
   const CouplingLevel& finest = level(finest_);
   parallel_for(nodes.count(), [&](std::size_t i) {
-    const NodeLanes per_mass = from(finest, weights(finest_, nodes.x[i]));
+    const LevelPlace& place = place_of_fluid_[i];
+    out.impulse[i] = out.change_by_drag[i] = Vec3::Zero();
+    out.displaced[i] = 0;
+    if (place.slab < 0) return;
+    const NodeLanes per_mass = from(finest, place.weights());
     constexpr int p = rock_lane::impulse, v = rock_lane::velocity;
     out.impulse[i] = nodes.mass[i] * Vec3(per_mass[p], per_mass[p + 1], per_mass[p + 2]);
     out.change_by_drag[i] = {per_mass[v], per_mass[v + 1], per_mass[v + 2]};
@@ -348,12 +415,15 @@ void CouplingGrid::scatter(const FluidNodes& nodes, FromRocks& out) {
 }
 
 std::size_t CouplingGrid::memory_bytes() const {
-  std::size_t bytes = of_fluid_.memory_bytes();
+  std::size_t bytes = of_fluid_.memory_bytes() + place_of_fluid_.capacity() * sizeof(LevelPlace);
   for (const SlabOrder& order : of_level_) bytes += order.memory_bytes();
   for (const CouplingLevel& level : levels_)
     bytes += level.fluid.capacity() *
                  (2 * sizeof(CouplingLevel::Sums) + sizeof(CouplingLevel::Acceleration) + sizeof(double)) +
-             level.up.capacity() * sizeof(LevelWeights) + level.wet.capacity() * sizeof(int);
+             level.up.capacity() * sizeof(LevelWeights) + level.asked.capacity() +
+             (level.wet.capacity() + level.down.capacity() + level.down_begin.capacity() +
+              level.all_asked.capacity()) *
+                 sizeof(int);
   for (const std::vector<std::vector<int>>* lists : {&wet_, &rocky_})
     for (const std::vector<int>& list : *lists) bytes += list.capacity() * sizeof(int);
   return bytes;

@@ -5,7 +5,8 @@
 ///
 /// Fluid nodes are averaged onto the finest level in use, that one on to the next coarser one in use, and so
 /// on, each with trilinear weights. What a level's node gives back goes down the same way, in proportion
-/// to mass: sums are exact in both directions. Only nodes that fluid or rock reaches are visited or cleared.
+/// to mass: sums are exact in both directions. Only fluid that a rock's kernel reaches is averaged, and only
+/// nodes that such fluid or a rock reaches are visited or cleared.
 ///
 /// Whoever adds to nodes goes through each_slab: threads work on slabs that do not meet.
 
@@ -24,6 +25,16 @@ struct LevelWeights {
   std::array<int, 8> node{};
   std::array<double, 8> weight{};
   int slab = 0;  ///< of the cell, counted over all levels
+};
+
+/// The same in short: the cell's lowest node, how many nodes on the next one stands along each axis, and how
+/// far the place is towards it [0..1].
+struct LevelPlace {
+  int low = 0, slab = 0;
+  std::array<int, 3> next{};
+  std::array<double, 3> upper{};
+
+  LevelWeights weights() const;
 };
 
 /// Eight sums of a node, one cache line.
@@ -59,6 +70,9 @@ struct CouplingLevel {
   std::vector<double> packed;              ///< solids fraction, of all coarser levels too, where fluid is
   std::vector<int> wet;                    ///< nodes with fluid, slab by slab
   std::vector<LevelWeights> up;            ///< of each of its nodes on the next coarser level in use
+  std::vector<int> down, down_begin;  ///< nodes of the next finer level in use that reach each of its nodes
+  std::vector<std::uint8_t> asked;    ///< nodes whose fluid a rock asks for, itself or through coarser levels
+  std::vector<int> all_asked;         ///< those nodes
 
   double cell_volume() const { return spacing.prod(); }
   NodeLanes& fluid_at(int node) { return fluid[static_cast<std::size_t>(node)].lanes; }
@@ -88,7 +102,8 @@ class CouplingGrid {
   const CouplingLevel& level(int l) const { return levels_[static_cast<std::size_t>(l)]; }
   int finest() const { return finest_; }      ///< level in use
   int coarsest() const { return coarsest_; }  ///< level in use
-  LevelWeights weights(int l, const Vec3& x) const;
+  LevelPlace place(int l, const Vec3& x) const;
+  LevelWeights weights(int l, const Vec3& x) const { return place(l, x).weights(); }
   double kernel_width(int l) const { return 2 * level(l).spacing.minCoeff(); }  ///< [m]
 
   std::size_t slab_count() const { return wet_.size(); }
@@ -103,9 +118,11 @@ class CouplingGrid {
   }
 
   void clear_solids();
-  /// Adds a rock's volume [m3] at a place of level l. To be called within each_slab.
+  /// Adds a rock's volume [m3] at a place of level l, whose fluid is then gathered. To be called within
+  /// each_slab.
   void add_solids(int l, const LevelWeights& place, double volume);
-  /// Averages the fluid's nodes on to every level in use; what the levels held of the fluid is dropped.
+  /// Averages the fluid's nodes on to every level in use, where a rock was added; what the levels held of the
+  /// fluid is dropped.
   void gather(const FluidNodes& nodes);
   /// Solids fraction at each of these nodes, of all rocks, wet or dry. @pre gather was called with these
   /// nodes
@@ -120,6 +137,9 @@ class CouplingGrid {
   void make(int l);
   void clear_fluid();
   void list_wet(int l);
+  void list_down(int l);
+  void find_asked();
+  void place_fluid(const FluidNodes& nodes);
   void colour_slabs();
   int slabs_of(int l) const;
   Vec3 place_of(int l, int node) const;
@@ -130,8 +150,10 @@ class CouplingGrid {
   std::vector<CouplingLevel> levels_;
   std::vector<std::vector<int>> colours_;      ///< slabs that do not meet
   std::vector<std::vector<int>> wet_, rocky_;  ///< nodes that a slab was the first to reach
-  SlabOrder of_fluid_;                         ///< fluid nodes on the finest level in use
-  std::vector<SlabOrder> of_level_;            ///< wet nodes of a level on the next coarser one
+  std::vector<LevelPlace>
+      place_of_fluid_;               ///< each fluid node on the finest level in use; slab -1: not asked
+  SlabOrder of_fluid_;               ///< fluid nodes on that level
+  std::vector<SlabOrder> of_level_;  ///< wet nodes of a level on the next coarser one
 };
 
 }  // namespace sluice
