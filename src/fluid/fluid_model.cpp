@@ -68,6 +68,7 @@ double fines_fraction(const FluidModel& model, double density) {
 }
 
 double slurry_viscosity(const FluidModel& model, double phi) {
+  if (phi <= 0) return model.viscosity;
   return model.viscosity * std::pow(1.0 - phi / model.packing, -2.5 * model.packing);
 }
 

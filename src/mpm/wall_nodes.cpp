@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace sluice {
 namespace {
@@ -13,12 +14,23 @@ constexpr double eye_slack = 2e-3;  // more than the offset at which a node is s
 constexpr int sample_groups = 32;   // 1024 samples: a plane's fraction within 0.01
 
 struct Candidate {
-  double distance = 0;          ///< to the foot
-  int patch = -1;               ///< or a body as one; -1: none
-  Vec3 normal = Vec3::Zero();   ///< towards the wall
-  Vec3 surface = Vec3::Zero();  ///< a place of its plane
-  double curvature = 0;         ///< mean
+  double distance;   ///< to the foot
+  int order;         ///< as it was found
+  int patch;         ///< or a body as one
+  Vec3 normal;       ///< towards the wall
+  Vec3 foot;         ///< nearest place of it
+  Vec3 surface;      ///< a place of its plane
+  double curvature;  ///< mean
+  bool around;       ///< the place lies within the body
 };
+
+/// Nearest first; of two alike the one found first.
+void sort_by_distance(std::vector<Candidate>& candidates) {
+  if (candidates.size() < 2) return;
+  std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
+    return a.distance < b.distance || (a.distance == b.distance && a.order < b.order);
+  });
+}
 
 Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
   const Vec3 ab = b - a;
@@ -30,6 +42,7 @@ Vec3 closest_on_segment(const Vec3& x, const Vec3& a, const Vec3& b) {
 std::optional<Vec3> foot_on(const Sight& sight, const StencilPatch& p, const Vec3& x, double height) {
   const Vec3 q = x - height * sight.plane(p).normal;
   if (p.near.covered() || sight.inside(p, q, sight.walls.tolerance)) return q;
+  if (!p.goes_on) return std::nullopt;
   double nearest_smooth = std::numeric_limits<double>::infinity(), nearest_free = nearest_smooth;
   Vec3 foot = q;
   for (std::int32_t index : sight.stencils.triangles_of(p)) {
@@ -102,43 +115,41 @@ int active_planes(const Sight& sight, const StencilRecord& record, const Vec3& x
               0};
     return 1;
   }
+  thread_local std::vector<Candidate> candidates;  // keeps its memory: this is asked for each point
+  candidates.clear();
+  const auto add = [&](Candidate candidate) {
+    if (!(candidate.distance < plane_reach)) return;
+    candidate.order = static_cast<int>(candidates.size());
+    candidates.push_back(candidate);
+  };
+  for (const StencilPatch& p : patches) {
+    const WallPatch& plane = sight.plane(p);
+    const double height = height_over(plane, seen_at);
+    if (!(std::abs(height) < plane_reach)) continue;
+    const std::optional<Vec3> foot = foot_on(sight, p, seen_at, height);
+    if (!foot) continue;
+    const Vec3 normal = is_above(height) ? Vec3(-plane.normal) : plane.normal;
+    add({(*foot - seen_at).norm(), 0, p.patch, normal, *foot, plane.offset * plane.normal, 0, false});
+  }
+  for (const std::int32_t body : sight.stencils.bodies_of(record)) {
+    const BodyFace face = sight.face(body, seen_at);
+    add({std::max(0.0, face.height), 0, sight.patch_of_body(body), -face.normal, face.foot, face.foot,
+         face.curvature, face.height <= 0});
+  }
+  sort_by_distance(candidates);
+  const bool alone = patches.size() + static_cast<std::size_t>(record.body_count) < 2;
   int written = 0;
-  while (written < max) {
-    Candidate best{.distance = plane_reach};
-    const auto merged = [&](const Vec3& normal) {
-      return std::any_of(out, out + written, [&](const WallPlane& earlier) {
-        return earlier.normal.dot(normal) > smooth_cosine;
-      });
-    };
-    const auto in_sight = [&](const Vec3& foot, int patch) {
-      return patches.size() + static_cast<std::size_t>(record.body_count) < 2 ||
-             sight.sees(record, seen_at, foot + 1e-3 * (seen_at - foot), patch);
-    };
-    for (const StencilPatch& p : patches) {
-      const WallPatch& plane = sight.plane(p);
-      const double height = height_over(plane, seen_at);
-      if (!(std::abs(height) < best.distance)) continue;
-      const Vec3 normal = is_above(height) ? Vec3(-plane.normal) : plane.normal;
-      if (merged(normal)) continue;
-      const std::optional<Vec3> foot = foot_on(sight, p, seen_at, height);
-      if (!foot) continue;
-      const double distance = (*foot - seen_at).norm();
-      if (distance >= best.distance || !in_sight(*foot, p.patch)) continue;
-      best = {distance, p.patch, normal, plane.offset * plane.normal, 0};
-    }
-    for (const std::int32_t body : sight.stencils.bodies_of(record)) {
-      const BodyFace face = sight.face(body, seen_at);
-      const double distance = std::max(0.0, face.height);
-      const int patch = sight.patch_of_body(body);
-      // Within a body that reaches into another wall, that wall may stand before the body's surface.
-      const bool outside = face.height > 0;
-      if (distance >= best.distance || merged(-face.normal) || (outside && !in_sight(face.foot, patch)))
-        continue;
-      best = {distance, patch, -face.normal, face.foot, face.curvature};
-    }
-    if (best.patch < 0) break;
-    out[written++] = {best.normal, std::max(0.0, best.normal.dot(best.surface - x)),
-                      sight.wall_of(best.patch), best.patch, best.curvature};
+  for (const Candidate& next : candidates) {
+    if (written == max) break;
+    if (std::any_of(out, out + written, [&](const WallPlane& earlier) {
+          return earlier.normal.dot(next.normal) > smooth_cosine;
+        }))
+      continue;
+    // Within a body that reaches into another wall, that wall may stand before the body's surface.
+    const Vec3 before_foot = next.foot + 1e-3 * (seen_at - next.foot);
+    if (!alone && !next.around && !sight.sees(record, seen_at, before_foot, next.patch)) continue;
+    out[written++] = {next.normal, std::max(0.0, next.normal.dot(next.surface - x)),
+                      sight.wall_of(next.patch), next.patch, next.curvature};
   }
   return written;
 }

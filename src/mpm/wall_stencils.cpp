@@ -306,6 +306,10 @@ void WallStencils::classify(const WallPatches& walls, StencilRecord& r, std::vec
     }
     const std::span<std::int32_t> all(triangles.data() + p->triangles,
                                       static_cast<std::size_t>(p->near.triangles));
+    p->goes_on = std::any_of(all.begin(), all.end(), [&](std::int32_t t) {
+      const WallTriangle& triangle = walls.triangles[static_cast<std::size_t>(t)];
+      return (triangle.boundary & triangle.smooth) != 0;
+    });
     const auto split = std::stable_partition(all.begin(), all.end(), [&](std::int32_t t) {
       return meets_cube(walls.triangles[static_cast<std::size_t>(t)], centre, cut_half);
     });

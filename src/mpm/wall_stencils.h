@@ -37,6 +37,7 @@ struct StencilPatch {
   std::uint32_t above = 0;     ///< nodes on the normal's side
   std::int32_t triangles = 0;  ///< first of its triangles, in WallStencils::triangles
   std::int32_t cuts = 0;       ///< 1 if it can hide nodes of the stencil
+  std::int32_t goes_on = 0;    ///< 1 if a smooth surface goes on beyond one of its triangles' edges
   PatchSection near{};         ///< in the near box
   PatchSection cut{};          ///< in the cut box; its triangles come first
 };
