@@ -14,6 +14,7 @@
 
 #include <memory>
 
+#include "base/parallel.h"
 #include "dem/dem_system.h"
 #include "dem/faces.h"
 #include "dem/hertz_mindlin.h"
@@ -141,7 +142,6 @@ struct StepTime {
 struct DemSystem::Implementation {
   Implementation(const DemConfig& config, DemScene scene, const Walls& walls);
 
-  static constexpr std::size_t chunk_length = PairList::rocks_per_chunk;
   // How far a rock may go before the pairs are listed again, of its bounding radius; beside periodic faces at
   // most so far that it cannot reach another one twice.
   static constexpr double least_margin = 0.03, most_margin = 0.3;
@@ -235,6 +235,13 @@ struct DemSystem::Implementation {
   void steps_of(double t, double dt, int n);
   void keep_overlaps();
   void prepare_chunks(double dt);
+  /// One for each chunk that the rocks are cut into now.
+  void make_chunks();
+  /// Calls body(chunk, begin, end) for each chunk of rocks, on the thread that had it in the loop before.
+  template <class Body>
+  void each_chunk(const Body& body) const {
+    parallel_chunks<ChunkGoes::to_same_thread>(count(), pairs.chunk_length(), body);
+  }
   /// @param goes_on  the last step still wants its end
   void drift(const StepTime& time, bool goes_on);
   /// Where the reaction on the second rock of a pair goes.

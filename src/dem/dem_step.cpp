@@ -50,15 +50,22 @@ void DemSystem::Implementation::keep_overlaps() {
 void DemSystem::Implementation::prepare_chunks(double dt) {
   // The rocks' first half kick is with the forces of the last step: so is the walls'.
   give_half_to_walls(dt);
-  const std::size_t used = (count() + chunk_length - 1) / chunk_length;
-  if (chunks.size() < used) chunks.resize(used);
   for (DemChunk& chunk : chunks) {
     chunk.elastic = 0;
     chunk.moved_far = false;
     chunk.contacts = 0;
     chunk.overlaps.clear();
-    chunk.loads.resize(walls.size());
     chunk.rates.assign(walls.size(), {});
+  }
+  make_chunks();
+}
+
+void DemSystem::Implementation::make_chunks() {
+  const std::size_t used = (count() + pairs.chunk_length() - 1) / pairs.chunk_length();
+  while (chunks.size() < used) {
+    chunks.emplace_back();
+    chunks.back().loads.resize(walls.size());
+    chunks.back().rates.resize(walls.size());
   }
 }
 
@@ -101,7 +108,7 @@ void DemSystem::Implementation::drift(const StepTime& time, bool goes_on) {
   }
   places.resize(count());
   motions.resize(count());
-  parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
+  each_chunk([&](std::size_t c, std::size_t begin, std::size_t end) {
     if (goes_on) take_reactions(c);
     if (only_spheres) {
       move_spheres(chunks[c], begin, end, time, goes_on);
@@ -131,9 +138,8 @@ void DemSystem::Implementation::count_fluid(DemChunk& chunk, std::size_t begin, 
 
 void DemSystem::Implementation::list_pairs(double dt) {
   if (only_spheres)
-    parallel_chunks(count(), chunk_length,
-                    [&](std::size_t, std::size_t begin, std::size_t end) { take_from_rows(begin, end); });
-  if (count() > chunk_length && lists % lists_per_sort == 0) sort_in_space();
+    each_chunk([&](std::size_t, std::size_t begin, std::size_t end) { take_from_rows(begin, end); });
+  if (count() > pairs.chunk_length() && lists % lists_per_sort == 0) sort_in_space();
   ++lists;
   std::vector<double> reach(count());
   double most_reach = std::numeric_limits<double>::infinity();
@@ -148,6 +154,7 @@ void DemSystem::Implementation::list_pairs(double dt) {
   std::vector<std::uint8_t> blocky(has_blocky ? count() : 0);
   for (std::size_t i = 0; i < blocky.size(); ++i) blocky[i] = is_blocky(i) ? 1 : 0;
   pairs.rebuild(rocks.x, reach, scene.domain, blocky);
+  make_chunks();
   listed_at = rocks.x;
   list_valid = true;
   room_valid = false;  // its grid allows for the margins only
@@ -168,19 +175,19 @@ void DemSystem::Implementation::turn_copies() {
 void DemSystem::Implementation::contacts(const StepTime& time) {
   reactions.resize(pairs.queue_start.back());
   queued.resize(pairs.incoming.size());
-  parallel_chunks_with(pair_scratch, count(), chunk_length,
-                       [&](PairScratch& scratch, std::size_t c, std::size_t begin, std::size_t end) {
-                         scratch.begin = begin;
-                         std::fill(push.begin() + static_cast<std::ptrdiff_t>(begin),
-                                   push.begin() + static_cast<std::ptrdiff_t>(end), Push{});
-                         std::fill(queued.begin() + pairs.out_start[c],
-                                   queued.begin() + pairs.out_start[c + 1], 0);
-                         pairs_of(chunks[c], scratch, end, time);
-                         if (has_walls)
-                           for (std::size_t i = begin; i < end; ++i) walls_of(chunks[c], i, time);
-                         if (!moving.empty())
-                           for (std::size_t i = begin; i < end; ++i) moving_walls_of(chunks[c], i, time);
-                       });
+  pair_scratch.resize(std::max(pair_scratch.size(), static_cast<std::size_t>(thread_count())));
+  each_chunk([&](std::size_t c, std::size_t begin, std::size_t end) {
+    PairScratch& scratch = pair_scratch[static_cast<std::size_t>(this_thread())];
+    scratch.begin = begin;
+    std::fill(push.begin() + static_cast<std::ptrdiff_t>(begin),
+              push.begin() + static_cast<std::ptrdiff_t>(end), Push{});
+    std::fill(queued.begin() + pairs.out_start[c], queued.begin() + pairs.out_start[c + 1], 0);
+    pairs_of(chunks[c], scratch, end, time);
+    if (has_walls)
+      for (std::size_t i = begin; i < end; ++i) walls_of(chunks[c], i, time);
+    if (!moving.empty())
+      for (std::size_t i = begin; i < end; ++i) moving_walls_of(chunks[c], i, time);
+  });
 }
 
 void DemSystem::Implementation::take_reactions(std::size_t c) {
@@ -215,7 +222,7 @@ void DemSystem::Implementation::end_step(std::size_t i, const StepTime& time) {
 }
 
 void DemSystem::Implementation::finish(const StepTime& time) {
-  parallel_chunks(count(), chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
+  each_chunk([&](std::size_t c, std::size_t begin, std::size_t end) {
     take_reactions(c);
     if (only_spheres) return end_spheres(begin, end, time);
     for (std::size_t i = begin; i < end; ++i) {

@@ -1,6 +1,7 @@
 #include "dem/pair_list.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/parallel.h"
 #include "dem/faces.h"
@@ -8,7 +9,7 @@
 namespace sluice {
 
 namespace {
-constexpr std::size_t chunk_length = 256;
+constexpr std::size_t rocks_per_search = 256;
 constexpr std::size_t memory_columns = 9;
 }  // namespace
 
@@ -34,10 +35,10 @@ void PairList::find(std::span<const Vec3> x, std::span<const double> reach, cons
                     std::span<const std::uint8_t> blocky) {
   const std::size_t n = x.size();
   grid.build(x, reach, domain);
-  found_.resize(std::max(found_.size(), (n + chunk_length - 1) / chunk_length));
+  found_.resize(std::max(found_.size(), (n + rocks_per_search - 1) / rocks_per_search));
   for (auto& chunk : found_) chunk.clear();
   const bool periodic = domain.any_periodic();
-  parallel_chunks(n, chunk_length, [&](std::size_t c, std::size_t begin, std::size_t end) {
+  parallel_chunks(n, rocks_per_search, [&](std::size_t c, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const int level = grid.level(i);
       grid.near(x[i], reach[i], level, [&](std::size_t j) {
@@ -65,7 +66,9 @@ void PairList::find(std::span<const Vec3> x, std::span<const double> reach, cons
 }
 
 void PairList::give_queues() {
-  const std::size_t n = rock_count(), chunks = (n + rocks_per_chunk - 1) / rocks_per_chunk;
+  const std::size_t n = rock_count();
+  chunk_length_ = std::clamp(std::bit_floor(n / enough_chunks), shortest_chunk, longest_chunk);
+  const std::size_t chunks = (n + chunk_length_ - 1) / chunk_length_;
   first.resize(second.size());
   queue.assign(second.size(), no_queue);
   out_start.assign(1, 0);
@@ -75,10 +78,8 @@ void PairList::give_queues() {
   std::vector<std::uint32_t> number(chunks, 0);    // of the queue
   std::vector<std::uint32_t> goes;                 // chunks that any go to
   for (std::size_t c = 0; c < chunks; ++c) {
-    const std::size_t begin = c * rocks_per_chunk, end = std::min(n, begin + rocks_per_chunk);
-    const auto chunk_of = [&](std::size_t p) {
-      return static_cast<std::size_t>(second[p]) / rocks_per_chunk;
-    };
+    const std::size_t begin = c * chunk_length_, end = std::min(n, begin + chunk_length_);
+    const auto chunk_of = [&](std::size_t p) { return static_cast<std::size_t>(second[p]) / chunk_length_; };
     goes.clear();
     for (std::size_t i = begin; i < end; ++i)
       for (std::size_t p = start[i]; p < start[i + 1]; ++p) {

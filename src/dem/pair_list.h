@@ -6,9 +6,10 @@
 /// Two blocky rocks are listed face_copies times in a row (faces.h), one entry for each copy of one of them;
 /// the order of the copies stays.
 ///
-/// Rocks are cut into chunks of `rocks_per_chunk`. A chunk adds the forces of its pairs to its own rocks
-/// at once; the reaction on a rock of another chunk waits in a queue that no other chunk writes, long enough
-/// for all pairs that cross from the one to the other:
+/// Rocks are cut into chunks, so many that threads have enough to share, up to `longest_chunk` rocks each: a
+/// function of how many rocks are listed, not of the threads. A chunk adds the forces of its pairs to its own
+/// rocks at once; the reaction on a rock of another chunk waits in a queue that no other chunk writes, long
+/// enough for all pairs that cross from the one to the other:
 ///
 ///     rocks     [ 0 ... 511 ][ 512 ... 1023 ][ ...       queues of chunk 0: out_start[0] ... out_start[1]
 ///     pair (7, 600) of chunk 0 crosses: queue q          received by chunk 1: among incoming[in_start[1]
@@ -35,7 +36,7 @@ struct PairContents {
 
 class PairList {
  public:
-  static constexpr std::size_t rocks_per_chunk = 512;
+  static constexpr std::size_t shortest_chunk = 32, longest_chunk = 512, enough_chunks = 16;
   static constexpr std::uint32_t no_queue = 0xffffffff;
 
   explicit PairList(PairContents contents) : contents_(contents) {
@@ -73,7 +74,9 @@ class PairList {
   std::vector<std::uint32_t> queue_start;  ///< #queues + 1: first place of each
   CellGrid grid;                           ///< of the last rebuild
 
-  bool crosses(std::size_t i, std::size_t j) const { return i / rocks_per_chunk != j / rocks_per_chunk; }
+  /// Rocks in a chunk, the last one apart.
+  std::size_t chunk_length() const { return chunk_length_; }
+  bool crosses(std::size_t i, std::size_t j) const { return i / chunk_length_ != j / chunk_length_; }
 
  private:
   void find(std::span<const Vec3> x, std::span<const double> reach, const Domain& domain,
@@ -83,6 +86,7 @@ class PairList {
   void copy_memory(const PairList& from, std::size_t old_pair, std::size_t new_pair);
 
   PairContents contents_;
+  std::size_t chunk_length_ = shortest_chunk;
   std::vector<std::vector<std::array<int, 2>>> found_;  ///< scratch, by chunk
 };
 

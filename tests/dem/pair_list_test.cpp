@@ -159,16 +159,28 @@ TEST(PairList, QueuesEachPairThatLeavesItsChunkWhereNoOtherChunkWrites) {
   for (std::size_t i = 0; i < list.rock_count(); ++i)
     for (std::size_t p = list.start[i]; p < list.start[i + 1]; ++p) {
       const auto j = static_cast<std::size_t>(list.second[p]);
-      const std::size_t chunk = i / PairList::rocks_per_chunk;
+      const std::size_t chunk = i / list.chunk_length();
       EXPECT_EQ(list.first[p], i);
       EXPECT_EQ(list.queue[p] != PairList::no_queue, list.crosses(i, j));
       if (!list.crosses(i, j)) continue;
       EXPECT_GE(list.queue[p], list.out_start[chunk]);
       EXPECT_LT(list.queue[p], list.out_start[chunk + 1]);
-      EXPECT_EQ(goes_to[list.queue[p]], j / PairList::rocks_per_chunk);
+      EXPECT_EQ(goes_to[list.queue[p]], j / list.chunk_length());
       ++most[list.queue[p]];
     }
   for (std::size_t q = 0; q < queues; ++q) EXPECT_EQ(list.queue_start[q + 1] - list.queue_start[q], most[q]);
+}
+
+TEST(PairList, CutsFewRocksIntoShortChunksAndManyIntoLongOnes) {
+  Random random(5);
+  for (const auto& [rocks, length] : {std::pair{1, 32}, {500, 32}, {1100, 64}, {5000, 256}, {9000, 512}}) {
+    std::vector<Vec3> x;
+    for (int i = 0; i < rocks; ++i) x.push_back(random.on_sphere());
+    const std::vector<double> reach(x.size(), 1e-3);
+    PairList list({});
+    list.rebuild(x, reach, {.box = {Vec3::Constant(-1), Vec3::Ones()}});
+    EXPECT_EQ(list.chunk_length(), static_cast<std::size_t>(length)) << rocks;
+  }
 }
 
 TEST(PairList, MissesNoContactOfMovingSuperquadrics) {
