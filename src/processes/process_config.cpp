@@ -1,5 +1,7 @@
 #include "processes/process_config.h"
 
+#include <fmt/format.h>
+
 #include "processes/process_document.h"
 
 namespace sluice {
@@ -35,14 +37,17 @@ void DomainConfig::keys(Schema& s) {
   face("z_high", high_face[2], "face at high z");
   s.text("wall_material", wall_material, {.doc = "material of the faces that are walls"});
   wall_material_at = s.at("wall_material");
+  std::string empty_along;
   for (int k = 0; k < 3; ++k) {
     static const char* names[3][2] = {{"x_low", "x_high"}, {"y_low", "y_high"}, {"z_low", "z_high"}};
     if ((low_face[k] == Face::periodic) != (high_face[k] == Face::periodic))
       s.problem(low_face[k] == Face::periodic ? names[k][1] : names[k][0], "is not periodic",
                 "a periodic face needs a periodic one opposite", "make both periodic or neither");
-    if (s.given("low") && s.given("high") && !(low[k] < high[k]))
-      s.problem("high", "is not above 'low' in every axis", "the box would be empty", "swap or widen them");
+    if (!(low[k] < high[k])) empty_along += fmt::format("{}{}", empty_along.empty() ? "" : ", ", "xyz"[k]);
   }
+  if (s.given("low") && s.given("high") && !empty_along.empty())
+    s.problem("high", fmt::format("is not above 'low' along {}", empty_along), "the box would be empty",
+              "swap or widen them");
 }
 
 Domain DomainConfig::domain() const {

@@ -308,6 +308,11 @@ TEST_F(BadInput, MayBeARockWithoutDensity) {
                  "give materials.rock.density");
 }
 
+TEST_F(BadInput, MayBeADomainTurnedInsideOut) {
+  expect_refused(with("high: [1 m, 1 m, 2 m]", "high: [1 m, -1 m, -2 m]"), 5, "high",
+                 "is not above 'low' along y, z");
+}
+
 TEST_F(BadInput, MayBeALevelAboveItsBox) {
   expect_refused(with("high: [0.9 m, 0.9 m, 0.5 m]", "high: [0.9 m, 0.9 m, 0.5 m]\n    level: 0.7 m"), 29,
                  "level", "give a height inside the box");
