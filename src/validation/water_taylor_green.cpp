@@ -12,6 +12,7 @@ namespace sluice {
 void WaterTaylorGreen::keys(Schema& s) {
   s.number("cells", cells, {.at_least = 8, .doc = "grid cells along a side"});
   s.number("reynolds", reynolds, {.above = 0, .doc = "U L / nu"});
+  s.number("mach", mach, {.above = 0, .at_most = 0.2, .doc = "U over the speed of sound"});
 }
 
 Measured WaterTaylorGreen::run(const CsvTable& reference) const {
@@ -20,7 +21,7 @@ Measured WaterTaylorGreen::run(const CsvTable& reference) const {
   const double h = 1 / cells, k = 2 * std::numbers::pi;  // L = 1 m, U = 1 m/s
   WaterSetup setup;
   setup.config.spacing = h;
-  setup.config.fastest_bulk_speed = 1;
+  setup.config.sound_speed = 1 / mach;
   setup.config.keep_tension = true;
   setup.config.fluid.viscosity = setup.config.fluid.density / reynolds;
   setup.domain = water_domain({Vec3::Zero(), Vec3(1, 1, 4 * h)}, {true, true, true});

@@ -10,6 +10,7 @@ namespace sluice {
 struct WaterTaylorGreen : Measure {
   double cells = 32;      ///< along a side
   double reynolds = 100;  ///< U L / nu
+  double mach = 0.1;      ///< U over the speed of sound
 
   void keys(Schema& s) override;
   Measured run(const CsvTable& reference) const override;
