@@ -150,10 +150,9 @@ class CouplingGrid {
   std::vector<CouplingLevel> levels_;
   std::vector<std::vector<int>> colours_;      ///< slabs that do not meet
   std::vector<std::vector<int>> wet_, rocky_;  ///< nodes that a slab was the first to reach
-  std::vector<LevelPlace>
-      place_of_fluid_;               ///< each fluid node on the finest level in use; slab -1: not asked
-  SlabOrder of_fluid_;               ///< fluid nodes on that level
-  std::vector<SlabOrder> of_level_;  ///< wet nodes of a level on the next coarser one
+  std::vector<LevelPlace> place_of_fluid_;     ///< on the finest level in use; slab -1: no rock asks
+  SlabOrder of_fluid_;                         ///< fluid nodes on that level
+  std::vector<SlabOrder> of_level_;            ///< wet nodes of a level on the next coarser one
 };
 
 }  // namespace sluice
