@@ -5,9 +5,9 @@
 namespace sluice {
 
 namespace {
-/// Chord between two unit quaternions up to which the turn is within 1.001 times twice the chord.
+/// Chord between two unit quaternions up to which the turn is at most 1.001 times twice the chord.
 constexpr double small_turn = 0.1;
-/// Travel after which its sum begins anew, of the radius: far fewer steps than rounding could show in.
+/// Travel after which its sum begins anew, of the radius: long before its rounding reaches that of a gap.
 constexpr double longest_travel = 1e3;
 
 /// Appends what `of` gives for each corner of the triangles, ascending, each once.
