@@ -102,7 +102,7 @@ void ExplicitMpm<Real>::read_accelerations(std::vector<Vec3>& acceleration) cons
         const Node* nodes = grid_.nodes(grid_.slot_of(active[b]));
         std::size_t to = node_begin_[b];
         for (int n = 0; n < BlockLayout::nodes; ++n)
-          if (nodes[n][node_lane::near_wall] != 0)  // its pull, never zero once walls() is done
+          if (nodes[n][node_lane::fill] != 0)  // as that of all that carry mass
             acceleration[to++] = vector_at(nodes[n], node_lane::change) / step_.dt;
       },
       4);

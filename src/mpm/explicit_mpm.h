@@ -8,16 +8,23 @@
 ///   walls            nodes beside walls: pressure closure, no flow through, friction; coupling impulses
 ///   grid_to_points   each block copies its 6 x 6 x 6 nodes and moves its points
 ///
-/// Scheme: quadratic B-splines and APIC (Jiang et al. 2015) with MLS stress (Hu et al. 2018); the velocity
-/// keeps a part of its own past, with a time constant instead of a share per step; pressure is made quiet
-/// by averaging the departure of J from the local pressure gradient, anchored to the density on the grid.
+/// Scheme: quadratic B-splines and APIC (Jiang et al. 2015) with MLS stress (Hu et al. 2018); points keep
+/// their velocity and forget what the grid does not know of it, in a time instead of by a share per step;
+/// pressure is made quiet by averaging the departure of J from the local pressure gradient, anchored to the
+/// density on the grid.
 ///
-/// Spray. `bulk` b_i of a node ramps from 0 to 1 as its cell fills. A point takes
-///     v += sum w dv_i + a sum w e_i b_i (v_i - v - C d)
-/// with the pull e_i of full nodes, less than 1 where they accelerate. No e_i and b_i move net momentum,
-/// because v_i is the momentum mean of just these (v + C d). In nearly empty cells b = 0: the point keeps its
-/// velocity, feels gravity and drag, has no pressure, and shares its momentum with the water that it meets
-/// when the cells are full there.
+/// Velocities. `bulk` b_i of a node ramps from 0 to 1 as its cell fills. A point takes
+///     v += sum w dv_i + a sum w e_i b_i (s_i (v_i - v - C d) + (1 - s_i) (r - r_i))
+/// with its misfit r, which is what sum w b_i (v_i - v - C d) was a step ago: noise that no node sees, and
+/// flow that bends within a few cells. Their mean r_i at a node knows the flow alone; the rest is forgotten.
+/// That is the second order of XPIC (Hammerquist & Nairn 2017, CMAME 318:724), a step late instead of by a
+/// second transfer: a wave of which the transfers keep the share T loses as (1 - T)^2, not as 1 - T. The
+/// latter is left, s_i = 1, where water is sheared so fast that noise would outgrow it. The pull e_i of full
+/// nodes is less than 1 where they accelerate. No e_i, b_i and s_i move net momentum, because v_i is the
+/// momentum mean of just these (v + C d), and r_i that of r.
+///
+/// Spray. In nearly empty cells b = 0: the point keeps its velocity, feels gravity and drag, has no pressure,
+/// and shares its momentum with the water that it meets when the cells are full there.
 
 #include <memory>
 
@@ -83,7 +90,8 @@ class ExplicitMpm final : public FluidSystem {
   /// What all points share in a step.
   struct StepNumbers {
     double t = 0, dt = 0;
-    Real relax_velocity = 0;  ///< a: share of the grid's velocity taken in a step
+    double t_velocity = 0;    ///< in which points forget what the grid does not know [s]
+    Real relax_velocity = 0;  ///< a: share of it that goes in a step
     Real relax_dilation = 0;
     Real anchor = 0;        ///< dt / t_R
     Real shift = 0;         ///< per fill gradient [cells]
@@ -98,9 +106,8 @@ class ExplicitMpm final : public FluidSystem {
   struct NodeTile {
     Node node[BlockLayout::tile_nodes];
     Real void_fraction[BlockLayout::tile_nodes];
-    Real least_fill[BlockLayout::nodes];     ///< over the 27 nodes of each cell
-    bool eased[BlockLayout::nodes];          ///< some node of the cell pulls less than wholly
-    Vector pulled[BlockLayout::tile_nodes];  ///< pull times b v and b; set where a cell is eased
+    Vector blend[BlockLayout::tile_nodes];  ///< as NodeBlocks::blend
+    Real least_fill[BlockLayout::nodes];    ///< over the 27 nodes of each cell
   };
   /// What one block's grid_to_points found.
   struct BlockReport {
@@ -116,24 +123,27 @@ class ExplicitMpm final : public FluidSystem {
   /// What a point gives its nodes at (i, j, k) in {-1, 0, 1}: w (middle + i slope_0 + j slope_1 + k slope_2).
   struct Contribution {
     Node middle, slope[3];
+    Vector shared;     ///< m misfit, m rate of shear: w times it
     Vector weight[9];  ///< of nodes i, per j + 3 k; the fourth is 0
   };
   /// What a thread needs to scatter or move a block.
   struct ScatterScratch {
     static constexpr int batch = 16;
     Node tile[BlockLayout::tile_nodes];
+    Vector blend[BlockLayout::tile_nodes];
     Contribution point[batch];
     typename Node::Half strain[BlockLayout::tile_nodes];  ///< as NodeBlocks::strain
   };
   /// What a point gathers from its 27 nodes: weighted sums, and sums of w d with d in cells.
   struct Gathered {
     Vector change;     ///< of v [m/s]
-    Vector pulled;     ///< pull b v_old [m/s], pull b
+    Vector velocity;   ///< b v_old [m/s], b
+    Vector blend;      ///< as NodeBlocks::blend
     Vector pressure;   ///< change of v by pressure alone [m/s]
     Vector centre;     ///< mean x_p - x_i there [cells]
     Vector moment[3];  ///< of change + velocity, by columns like C [m/s]
-    Real bulk, fill, dilation, least_fill;
-    Real bulk_moment[3], fill_moment[3], pulled_moment[3];
+    Real bulk, pull, fill, dilation, least_fill;
+    Real bulk_moment[3], fill_moment[3], blend_moment[3];
     bool knows_all;       ///< of C; else `kept` stays
     bool beside_wall;     ///< walls hide nodes
     bool in_gap = false;  ///< between walls that all but touch
@@ -153,14 +163,15 @@ class ExplicitMpm final : public FluidSystem {
   void prepare_block(std::int32_t slot);
   void scatter_block(std::size_t index, ScatterScratch& scratch);
   void scatter(std::span<const Contribution> points, Node* corner) const;
-  void contribute(const Point& p, Contribution& a) const;
+  void scatter_shared(std::span<const Contribution> points, Vector* corner) const;
+  void contribute(const Point& p, const Vector& misfit, Contribution& a) const;
   Real sheared_viscosity(const Point& p) const;
   bool hide_nodes(const Point& p, std::int32_t cell_key, std::int32_t stencil, Contribution& a,
                   WallImpulses& impulses) const;
   void colour_blocks();
   void scatter_strain(const Point& p, const Contribution& a, bool beyond_edge,
                       typename Node::Half* corner) const;
-  void add_tile(const PointBlock& block, const Node* tile);
+  void add_tile(const PointBlock& block, const Node* tile, const Vector* blend);
   void add_strain(const PointBlock& block, const typename Node::Half* strain);
   std::uint32_t finish_nodes(std::int32_t slot);
   void wall_block(std::int32_t slot, std::uint32_t first, WallImpulses& impulses);
@@ -185,14 +196,14 @@ class ExplicitMpm final : public FluidSystem {
   void share_step(double dt);
   bool note(const Point& p, const Gathered& g, const Vector& moved, std::uint32_t slot,
             BlockReport& report) const;
-  void gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil, const NodeTile& tile,
-                        Gathered& g, WallImpulses& impulses) const;
+  void gather_near_wall(const Point& p, const Vector& misfit, std::int32_t cell_key, std::int32_t stencil,
+                        const NodeTile& tile, Gathered& g, WallImpulses& impulses) const;
   void gather(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   void gather_kept(const Point& p, int local, const NodeTile& tile, Gathered& g) const;
   Real gather_void_fraction(const Point& p, int local, const NodeTile& tile) const;
-  Vector update(Point& p, const Gathered& g) const;
-  void carry_in_gap(Point& p, Vector& moved, std::int32_t cell_key, std::int32_t stencil,
-                    WallImpulses& impulses) const;
+  Vector update(Point& p, BriefVector<Real>& misfit, const Gathered& g) const;
+  void carry_in_gap(Point& p, BriefVector<Real>& misfit, Vector& moved, std::int32_t cell_key,
+                    std::int32_t stencil, WallImpulses& impulses) const;
   void stop_at_walls(Point& p, const Place& before, std::int32_t cell_key, std::int32_t stencil,
                      WallImpulses& impulses) const;
   std::optional<WallHit> first_hit(std::int32_t stencil, const Vec3& from, const Vec3& to) const;

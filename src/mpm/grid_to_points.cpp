@@ -60,10 +60,13 @@ void ExplicitMpm<Real>::grid_to_points(double dt) {
 template <class Real>
 void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const {
   for (Node& n : tile.node) n.clear();
+  std::fill_n(tile.blend, BlockLayout::tile_nodes, Vector{});
   if (has_void_) std::fill_n(tile.void_fraction, BlockLayout::tile_nodes, Real(1));
   visit_tile(block, [&](std::int32_t slot, int from, int to, int length) {
     const Node* nodes = grid_.nodes(slot);
     const Real* voids = grid_.void_fraction(slot);
+    const Vector* blend = grid_.blend(slot);
+    for (int n = 0; n < length; ++n) tile.blend[to + n] = blend[from + n];
     if (length == BlockLayout::edge)
       for (int n = 0; n < BlockLayout::edge; ++n) tile.node[to + n] = nodes[from + n];
     else
@@ -76,23 +79,9 @@ void ExplicitMpm<Real>::load_tile(const PointBlock& block, NodeTile& tile) const
       tile.void_fraction[to + n] = 1 - ramp * (1 - voids[from + n]);
     }
   });
-  Real pull[BlockLayout::tile_nodes], fill[BlockLayout::tile_nodes];
-  Real least_pull = 1;
-  for (int n = 0; n < BlockLayout::tile_nodes; ++n) {
-    fill[n] = tile.node[n][node_lane::fill];
-    const Real own = tile.node[n][node_lane::near_wall];
-    pull[n] = own > 0 ? own : Real(1);
-    least_pull = std::min(least_pull, pull[n]);
-  }
+  Real fill[BlockLayout::tile_nodes];
+  for (int n = 0; n < BlockLayout::tile_nodes; ++n) fill[n] = tile.node[n][node_lane::fill];
   least_of_cells(fill, tile.least_fill);
-  if (least_pull == 1) {
-    std::fill_n(tile.eased, BlockLayout::nodes, false);
-    return;
-  }
-  Real least[BlockLayout::nodes];
-  least_of_cells(pull, least);
-  for (int cell = 0; cell < BlockLayout::nodes; ++cell) tile.eased[cell] = least[cell] < 1;
-  for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile.pulled[n] = pull[n] * tile.node[n].quad(0);
 }
 
 template <class Real>
@@ -107,12 +96,13 @@ void ExplicitMpm<Real>::gather(const Point& p, int local, const NodeTile& tile, 
   g.pressure = sum.quad(3);
   for (int c = 0; c < 3; ++c) {
     g.moment[c] = sum_of_quads<Real>(moment[c]);
-    g.bulk_moment[c] = g.pulled_moment[c] = moment[c][node_lane::mass];
+    g.bulk_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill];
   }
-  g.pulled = tile.eased[local] ? spline_sum_of_quads<6, 36>(tile.pulled + corner, p.x, g.pulled_moment)
-                               : sum.quad(0);
+  g.velocity = sum.quad(0);
+  g.blend = spline_sum_of_quads<6, 36>(tile.blend + corner, p.x, g.blend_moment);
   g.bulk = sum[node_lane::mass];
+  g.pull = sum[near_wall];
   g.fill = sum[fill];
   g.dilation = sum[dilation];
   g.least_fill = tile.least_fill[local];
@@ -145,36 +135,29 @@ void ExplicitMpm<Real>::gather_kept(const Point& p, int local, const NodeTile& t
       }
 }
 
-/// Where the viscosity depends on the rate of shear, sqrt(2 D:D) without the part that changes volume [Pa s].
+/// Where the viscosity depends on the rate of shear [Pa s].
 template <class Real>
 Real ExplicitMpm<Real>::sheared_viscosity(const Point& p) const {
-  const double third = static_cast<double>(p.C[0][0] + p.C[1][1] + p.C[2][2]) / 3;
-  double squares = 0;
-  for (int r = 0; r < 3; ++r) {
-    const double along = static_cast<double>(p.C[r][r]) - third;
-    squares += along * along;
-    for (int c = 0; c < r; ++c) {
-      const double across = 0.5 * static_cast<double>(p.C[c][r] + p.C[r][c]);
-      squares += 2 * across * across;
-    }
-  }
   const double density = static_cast<double>(p.mass() / p.volume());
   const FlowCurve curve = flow_curve(config_.fluid, fines_at(density));
-  return static_cast<Real>(apparent_viscosity(config_.fluid, curve, std::sqrt(2 * squares)));
+  return static_cast<Real>(apparent_viscosity(config_.fluid, curve, static_cast<double>(rate_of_shear(p))));
 }
 
 /// New velocity, C and J of a point, and how far it moves [cells].
 template <class Real>
-auto ExplicitMpm<Real>::update(Point& p, const Gathered& g) const -> Vector {
+auto ExplicitMpm<Real>::update(Point& p, BriefVector<Real>& misfit, const Gathered& g) const -> Vector {
   const Real* bulk = g.bulk_moment;
   const Vector old = p.v;
-  const Real* pulled = g.pulled_moment;
-  const Vector own =
-      g.pulled[3] * old + step_.h * (pulled[0] * p.C[0] + pulled[1] * p.C[1] + pulled[2] * p.C[2]);
-  const Vector to_grid = g.pulled - own;
+  const auto own = [&](Real sum, const Real* moment) -> Vector {
+    return sum * old + step_.h * (moment[0] * p.C[0] + moment[1] * p.C[1] + moment[2] * p.C[2]);
+  };
+  const Vector to_grid = g.velocity - own(g.bulk, bulk);
+  const Vector pulled = g.blend - own(g.blend[3], g.blend_moment) + (g.pull - g.blend[3]) * misfit.quad();
+  misfit = BriefVector<Real>((g.bulk > 0 ? g.pull / g.bulk : Real(0)) * to_grid);
   const Vector v = old + g.change;
-  Vector moved = step_.cells_per_speed * (v + to_grid);
-  p.v = with_fourth(v + step_.relax_velocity * to_grid, old[3]);
+  const Real eased = g.bulk > 0 ? g.pull / g.bulk : Real(0);
+  Vector moved = step_.cells_per_speed * (v + eased * to_grid);
+  p.v = with_fourth(v + step_.relax_velocity * pulled, old[3]);
   Vector C[3];
   for (int c = 0; c < 3; ++c) C[c] = step_.per_h * (g.moment[c] - bulk[c] * old);
   if (!g.knows_all) {
@@ -238,18 +221,19 @@ void ExplicitMpm<Real>::move_cell(std::span<const std::uint32_t> slots, std::siz
     Point& p = store_.points[slots[n]];
     Gathered& g = scratch.gathered[n];
     if (stencil >= 0)
-      gather_near_wall(p, store_.key[slots[n]], stencil, scratch.tile, g, impulses_[index]);
+      gather_near_wall(p, store_.misfit[slots[n]].quad(), store_.key[slots[n]], stencil, scratch.tile, g,
+                       impulses_[index]);
     else
       gather(p, local, scratch.tile, g);
     if (has_void_) p.C[2][3] = gather_void_fraction(p, local, scratch.tile);
   }
   for (std::size_t n = 0; n < count; ++n)
-    scratch.moved[n] = update(store_.points[slots[n]], scratch.gathered[n]);
+    scratch.moved[n] = update(store_.points[slots[n]], store_.misfit[slots[n]], scratch.gathered[n]);
   if (stencil >= 0)
     for (std::size_t n = 0; n < count; ++n)
       if (scratch.gathered[n].in_gap)
-        carry_in_gap(store_.points[slots[n]], scratch.moved[n], store_.key[slots[n]], stencil,
-                     impulses_[index]);
+        carry_in_gap(store_.points[slots[n]], store_.misfit[slots[n]], scratch.moved[n], store_.key[slots[n]],
+                     stencil, impulses_[index]);
   if (yields_)
     for (const std::uint32_t slot : slots) {
       Point& p = store_.points[slot];

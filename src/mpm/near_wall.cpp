@@ -92,8 +92,9 @@ bool ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::i
 }
 
 template <class Real>
-void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, std::int32_t stencil,
-                                         const NodeTile& tile, Gathered& g, WallImpulses& impulses) const {
+void ExplicitMpm<Real>::gather_near_wall(const Point& p, const Vector& misfit, std::int32_t cell_key,
+                                         std::int32_t stencil, const NodeTile& tile, Gathered& g,
+                                         WallImpulses& impulses) const {
   using namespace node_lane;
   const int local = cell_key & 63;
   const WallRecord record = record_of(stencil);
@@ -130,8 +131,10 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
   lent.clear();
   lent[node_lane::near_wall] = 1;
   Node visible[27];
-  Vector pulled[27];
+  Vector blend[27];
   Real least = std::numeric_limits<Real>::max();
+  const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
+  g.pull = 0;
   for (int n = 0; n < 27; ++n) {
     const int index = corner + n % 3 + 6 * (n / 3 % 3) + 36 * (n / 9);
     const Node& node = tile.node[index];
@@ -139,7 +142,8 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     const Real shows = hidden ? Real(0) : Real(1);
     for (int r = 0; r < Node::registers; ++r)
       visible[n].part[r] = shows * (node.part[r] * kept.part[r] + lent.part[r]);
-    if (tile.eased[local]) pulled[n] = shows * tile.pulled[index];
+    blend[n] = shows * tile.blend[index];
+    if (!hidden) g.pull += x.w[n % 3] * y.w[n / 3 % 3] * z.w[n / 9] * node[node_lane::near_wall];
     if (!hidden) least = std::min(least, node[fill]);
   }
   Node sum;
@@ -169,21 +173,26 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
     for (const HiddenNodes& hidden : groups.all()) hidden_moment += hidden.first[c];
     const Real weight_moment = static_cast<Real>(-hidden_moment);
     g.centre[c] += weight_moment * per_weight;
-    g.bulk_moment[c] = g.pulled_moment[c] = moment[c][node_lane::mass];
+    g.bulk_moment[c] = moment[c][node_lane::mass];
     g.fill_moment[c] = moment[c][fill] - g.fill * weight_moment;
     g.moment[c] = sum_of_quads<Real>(moment[c]);
     mean_change[c] +=
         static_cast<double>(sum[change + c]) / std::max(static_cast<double>(weight), enough_seen);
   }
-  g.pulled = tile.eased[local] ? spline_sum_of_quads<3, 9>(pulled, p.x, g.pulled_moment) : sum.quad(0);
+  g.velocity = sum.quad(0);
+  g.blend = spline_sum_of_quads<3, 9>(blend, p.x, g.blend_moment);
 
   // Hidden nodes: the point's own field, mirrored at the planes between.
   const double h = config_.spacing;
   Mat3 C;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) C(r, c) = static_cast<double>(p.C[c][r]);
-  const double pull = g.bulk > 0 ? static_cast<double>(g.pulled[3] / g.bulk) : 1.0;
-  const double share = static_cast<double>(step_.relax_velocity) * mean_bulk * pull;
+  // As the visible nodes pull in the mean: by velocity, and by misfits, whose mirror image is the point's
+  // own.
+  const double pull = mean_bulk * static_cast<double>(g.bulk > 0 ? g.pull / g.bulk : Real(1));
+  const double by_velocity = pull * static_cast<double>(g.pull > 0 ? g.blend[3] / g.pull : Real(1));
+  const double relax = static_cast<double>(step_.relax_velocity);
+  const Vec3 own_misfit(misfit[0], misfit[1], misfit[2]);
   for (const HiddenNodes& hidden : groups.all()) {
     Vec3 at = Vec3::Zero();                // mirrored node, constant
     Mat3 at_slope = h * Mat3::Identity();  // and per d
@@ -193,7 +202,7 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
       at -= 2 * (at.dot(plane.normal) - plane.distance) * plane.normal;
       at_slope -= 2 * plane.normal * (plane.normal.transpose() * at_slope);
     }
-    Vec3 ghost = v + C * at, ghost_change = mean_change;
+    Vec3 ghost = v + C * at, ghost_change = mean_change, ghost_misfit = own_misfit;
     Mat3 ghost_slope = C * at_slope;
     for (int q = around.plane_count - 1; q >= 0; --q) {
       if (!(hidden.mirrors >> q & 1)) continue;
@@ -209,22 +218,30 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, std::int32_t cell_key, 
         ghost -= 2 * (ghost - wall_velocity[q]).dot(plane.normal) * plane.normal;
         ghost_slope -= 2 * plane.normal * (plane.normal.transpose() * ghost_slope);
       }
+      if (config_.wall_slip == WallSlip::slip)
+        ghost_misfit -= 2 * ghost_misfit.dot(plane.normal) * plane.normal;
+      else  // the wall rubs
+        ghost_misfit = -ghost_misfit;
     }
     const Vec3 whole = ghost_change + mean_bulk * ghost;
-    const Vec3 pulled_sum = pull * mean_bulk * (hidden.w * ghost + ghost_slope * hidden.d());
+    const Vec3 ghost_sum = hidden.w * ghost + ghost_slope * hidden.d();
+    const Vec3 blend_sum = by_velocity * ghost_sum - (pull - by_velocity) * hidden.w * ghost_misfit;
     const Mat3 moments = whole * hidden.d().transpose() + mean_bulk * ghost_slope * hidden.dd();
     for (int r = 0; r < 3; ++r) {
       g.change[r] += static_cast<Real>(hidden.w * ghost_change[r]);
-      g.pulled[r] += static_cast<Real>(pulled_sum[r]);
+      g.velocity[r] += static_cast<Real>(mean_bulk * ghost_sum[r]);
+      g.blend[r] += static_cast<Real>(blend_sum[r]);
       g.bulk_moment[r] += static_cast<Real>(mean_bulk * hidden.first[r]);
-      g.pulled_moment[r] += static_cast<Real>(pull * mean_bulk * hidden.first[r]);
+      g.blend_moment[r] += static_cast<Real>(by_velocity * hidden.first[r]);
       for (int c = 0; c < 3; ++c) g.moment[c][r] += static_cast<Real>(moments(r, c));
     }
     g.bulk += static_cast<Real>(hidden.w * mean_bulk);
-    g.pulled[3] += static_cast<Real>(pull * hidden.w * mean_bulk);
+    g.pull += static_cast<Real>(pull * hidden.w);
+    g.blend[3] += static_cast<Real>(by_velocity * hidden.w);
     const double m = static_cast<double>(p.mass());
-    share_out(around, hidden, -m * (ghost_change + share * (ghost - v)), -m * share * (ghost_slope - h * C),
-              impulses);
+    const Vec3 pulled = by_velocity * (ghost - v) + (pull - by_velocity) * (own_misfit - ghost_misfit);
+    share_out(around, hidden, -m * (ghost_change + relax * pulled),
+              -m * relax * by_velocity * (ghost_slope - h * C), impulses);
   }
 }
 
@@ -284,7 +301,8 @@ std::optional<WallHit> ExplicitMpm<Real>::first_hit(std::int32_t stencil, const 
 /// Water between two walls that all but touch sticks to both, without pressure: cells do not see where it
 /// could go, and what its nodes tell it comes from water outside. Half of what it gives up goes to each.
 template <class Real>
-void ExplicitMpm<Real>::carry_in_gap(Point& p, Vector& moved, std::int32_t cell_key, std::int32_t stencil,
+void ExplicitMpm<Real>::carry_in_gap(Point& p, BriefVector<Real>& misfit, Vector& moved,
+                                     std::int32_t cell_key, std::int32_t stencil,
                                      WallImpulses& impulses) const {
   const WallRecord record = record_of(stencil);
   Surroundings around{.field = *record.field, .h = config_.spacing, .x = position(p.x, cell_key)};
@@ -304,6 +322,7 @@ void ExplicitMpm<Real>::carry_in_gap(Point& p, Vector& moved, std::int32_t cell_
     p.v[r] = static_cast<Real>(v[r] + change[r]);
     for (int c = 0; c < 3; ++c) p.C[c][r] = 0;
   }
+  misfit = {};
   moved = step_.cells_per_speed * p.v;
   moved[3] = 0;
   p.x[3] = 0;
@@ -335,18 +354,18 @@ void ExplicitMpm<Real>::stop_at_walls(Point& p, const Place& before, std::int32_
 
 template bool ExplicitMpm<float>::hide_nodes(const Point&, std::int32_t, std::int32_t, Contribution&,
                                              WallImpulses&) const;
-template void ExplicitMpm<float>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
-                                                   Gathered&, WallImpulses&) const;
-template void ExplicitMpm<float>::carry_in_gap(Point&, Vector&, std::int32_t, std::int32_t,
-                                               WallImpulses&) const;
+template void ExplicitMpm<float>::gather_near_wall(const Point&, const Vector&, std::int32_t, std::int32_t,
+                                                   const NodeTile&, Gathered&, WallImpulses&) const;
+template void ExplicitMpm<float>::carry_in_gap(Point&, BriefVector<float>&, Vector&, std::int32_t,
+                                               std::int32_t, WallImpulses&) const;
 template void ExplicitMpm<float>::stop_at_walls(Point&, const Place&, std::int32_t, std::int32_t,
                                                 WallImpulses&) const;
 template bool ExplicitMpm<double>::hide_nodes(const Point&, std::int32_t, std::int32_t, Contribution&,
                                               WallImpulses&) const;
-template void ExplicitMpm<double>::gather_near_wall(const Point&, std::int32_t, std::int32_t, const NodeTile&,
-                                                    Gathered&, WallImpulses&) const;
-template void ExplicitMpm<double>::carry_in_gap(Point&, Vector&, std::int32_t, std::int32_t,
-                                                WallImpulses&) const;
+template void ExplicitMpm<double>::gather_near_wall(const Point&, const Vector&, std::int32_t, std::int32_t,
+                                                    const NodeTile&, Gathered&, WallImpulses&) const;
+template void ExplicitMpm<double>::carry_in_gap(Point&, BriefVector<double>&, Vector&, std::int32_t,
+                                                std::int32_t, WallImpulses&) const;
 template void ExplicitMpm<double>::stop_at_walls(Point&, const Place&, std::int32_t, std::int32_t,
                                                  WallImpulses&) const;
 

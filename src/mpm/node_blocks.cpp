@@ -60,6 +60,7 @@ void NodeBlocks<Real>::replace_active(const std::function<void(std::int32_t slot
       block_.push_back(block);
       const std::size_t n = block_.size() * BlockLayout::nodes;
       data_.resize(n);
+      blend_.resize(n);
       if (!void_.empty()) void_.resize(n);
       stencil_.resize(n);
       strain_slot_.push_back(BlockLayout::none);
@@ -100,6 +101,7 @@ void NodeBlocks<Real>::make_room(std::size_t slots) {
   if (slots * BlockLayout::nodes <= data_.capacity()) return;
   const std::size_t nodes = (data_.empty() ? slots : slots + slots / 16) * BlockLayout::nodes;
   data_.reserve(nodes);
+  blend_.reserve(nodes);
   if (!void_.empty()) void_.reserve(nodes);
   stencil_.reserve(nodes);
 }
@@ -108,7 +110,7 @@ template <class Real>
 std::size_t NodeBlocks<Real>::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   return bytes(slot_) + bytes(block_) + bytes(free_) + bytes(active_) + bytes(wanted_) + bytes(mark_) +
-         bytes(data_) + bytes(void_) + bytes(stencil_) + bytes(strain_slot_) + bytes(strain_);
+         bytes(data_) + bytes(blend_) + bytes(void_) + bytes(stencil_) + bytes(strain_slot_) + bytes(strain_);
 }
 
 template class NodeBlocks<float>;

@@ -23,7 +23,7 @@ constexpr int fill = 7;        ///< volume [m3] -> over the open space
 constexpr int centre = 8;      ///< sum m (x_p - x_i) -> mean of it [cells]
 constexpr int dilation = 11;   ///< sum m (J - 1) -> mean
 constexpr int gradient = 12;   ///< sum V 4/h2 w d [m2] -> change of v by pressure alone [m/s]
-constexpr int near_wall = 15;  ///< mass of points beside walls -> its share -> pull on its points, 0 to 1
+constexpr int near_wall = 15;  ///< mass of points beside walls -> its share -> pull e b on its points, 0 to 1
 }  // namespace node_lane
 
 template <class Real>
@@ -48,6 +48,14 @@ class NodeBlocks {
   }
   const Lanes<Real>* nodes(std::int32_t slot) const {
     return &data_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  /// What nodes tell points of their velocities, besides: sum m misfit and sum m rate of shear -> their means
+  /// -> e b (s v - (1 - s) misfit) and e b s, with the share s of the pull that goes by the grid's velocity.
+  Quad<Real>* blend(std::int32_t slot) {
+    return &blend_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
+  }
+  const Quad<Real>* blend(std::int32_t slot) const {
+    return &blend_[static_cast<std::size_t>(slot) * BlockLayout::nodes];
   }
   /// Per node: 1 until fractions are held.
   const Real* void_fraction(std::int32_t slot) const {
@@ -101,6 +109,7 @@ class NodeBlocks {
   std::vector<std::uint32_t> mark_;  ///< per block: step at which it was last wanted
   std::uint32_t step_ = 0;
   std::vector<Lanes<Real>> data_;
+  std::vector<Quad<Real>> blend_;
   std::vector<Real> void_;  ///< empty while nobody set any
   std::vector<std::int32_t> stencil_;
   std::vector<std::int32_t> strain_slot_;  ///< per slot; none without

@@ -42,12 +42,14 @@ void PointStore<Real>::add(const Point& point, std::int32_t cell_key, std::uint6
     const std::size_t room = points.size() + points.size() / 32 + 1024;  // a little more, not twice as much
     points.reserve(room);
     before.reserve(room);
+    misfit.reserve(room);
     key.reserve(room);
     id.reserve(room);
     mass.reserve(room);
   }
   points.push_back(point);
   before.push_back({point.x[0], point.x[1], point.x[2]});
+  misfit.emplace_back();
   key.push_back(cell_key);
   id.push_back(point_id);
   mass.push_back(point_mass);
@@ -190,6 +192,7 @@ void PointStore<Real>::sort() {
   }
 
   const std::size_t count = bin_begin_.back();
+  reorder(misfit);
   reorder(key);
   reorder(id);
   reorder(mass);
@@ -266,7 +269,7 @@ std::size_t PointStore<Real>::memory_bytes() const {
   const auto bytes = [](const auto& v) { return v.capacity() * sizeof(v[0]); };
   std::size_t strays = 0;
   for (const auto& list : strays_of_bin_) strays += bytes(list);
-  return bytes(points) + bytes(before) + bytes(key) + bytes(id) + bytes(mass) + bytes(fines) +
+  return bytes(points) + bytes(before) + bytes(misfit) + bytes(key) + bytes(id) + bytes(mass) + bytes(fines) +
          bytes(strays_) + bytes(stray_place_) + bytes(order_) + bytes(cell_begin_) + strays + bytes(blocks_) +
          bytes(index_of_block_) + bytes(bin_block_) + bytes(bin_begin_) + bytes(reach_of_bin_);
 }
@@ -275,6 +278,7 @@ template <class Real>
 void PointStore<Real>::exchange(StateArchive& archive) {
   archive.values("points", points);
   archive.values("before", before);
+  archive.values("misfit", misfit);
   archive.values("key", key);
   archive.values("id", id);
   archive.values("mass", mass);

@@ -6,11 +6,13 @@
 /// is in now. New points wait unsorted at the end and are strays; removed ones keep their place with the
 /// key `none` until the next sort. All orders are functions of what is stored, never of the threads.
 
+#include <cmath>
 #include <span>
 #include <vector>
 
 #include "base/state_archive.h"
 #include "mpm/block_layout.h"
+#include "mpm/brief_vector.h"
 #include "mpm/quads.h"
 
 namespace sluice {
@@ -30,6 +32,22 @@ struct MaterialPoint {
   /// Of the mixture around it, 1 without rocks.
   Real void_fraction() const { return C[2][3]; }
 };
+
+/// sqrt(2 D:D), D = (C + C^T) / 2 without the part that changes volume [1/s].
+template <class Real>
+Real rate_of_shear(const MaterialPoint<Real>& p) {
+  const Real third = (p.C[0][0] + p.C[1][1] + p.C[2][2]) / 3;
+  Real squares = 0;
+  for (int r = 0; r < 3; ++r) {
+    const Real along = p.C[r][r] - third;
+    squares += along * along;
+    for (int c = 0; c < r; ++c) {
+      const Real across = Real(0.5) * (p.C[c][r] + p.C[r][c]);
+      squares += 2 * across * across;
+    }
+  }
+  return std::sqrt(2 * squares);
+}
 
 /// Rounds a position to the quantum, a multiple of 2^-22 cells in float: changing cells is then exact.
 /// @pre |x| < 1 [cells]: 3 + x lies in [2, 4), whose floats are that far apart
@@ -98,8 +116,9 @@ class PointStore {
   void exchange(StateArchive& archive);
 
   std::vector<Point> points;
-  std::vector<Place> before;      ///< at the start of the last step, from the nearest node of now [cells]
-  std::vector<std::int32_t> key;  ///< cell, `none` for a removed point
+  std::vector<Place> before;  ///< at the start of the last step, from the nearest node of now [cells]
+  std::vector<BriefVector<Real>> misfit;  ///< to its velocity from the grid's, a step ago [m/s]
+  std::vector<std::int32_t> key;          ///< cell, `none` for a removed point
   std::vector<std::uint64_t> id;
   std::vector<double> mass;   ///< as it came in [kg]
   std::vector<double> fines;  ///< as it came in [kg]; empty while all are 0

@@ -20,10 +20,10 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   const double g = gravity_.norm();
   // Time constants in the grid's acoustic time h/c, and of the anchor in the wave time of the depth: where
   // the scheme was measured, 0.1 s for 0.5 m of water.
-  const double t_velocity = 1.1 * h / sound_speed_;
+  step_.t_velocity = 1.1 * h / sound_speed_;
   const double t_dilation = 1.5 * h / sound_speed_;
   const double t_anchor = config_.deepest > 0 && g > 0 ? 0.45 * std::sqrt(config_.deepest / g) : 0.1;
-  step_.relax_velocity = static_cast<Real>(1.0 - std::exp(-dt / t_velocity));
+  step_.relax_velocity = static_cast<Real>(1.0 - std::exp(-dt / step_.t_velocity));
   step_.relax_dilation = static_cast<Real>(1.0 - std::exp(-dt / t_dilation));
   step_.anchor = static_cast<Real>(dt / t_anchor);
   step_.shift = static_cast<Real>(0.5 / t_anchor * dt);
@@ -44,10 +44,11 @@ void ExplicitMpm<Real>::points_to_grid(double t, double dt) {
   parallel_for(
       active.size(),
       [&](std::size_t b) {
-        Node* nodes = grid_.nodes(grid_.slot_of(active[b]));
+        const std::int32_t slot = grid_.slot_of(active[b]);
+        Node* nodes = grid_.nodes(slot);
         for (int n = 0; n < BlockLayout::nodes; ++n) nodes[n].clear();
-        if (auto* strain = grid_.strain(grid_.slot_of(active[b])))
-          std::fill_n(strain, BlockLayout::nodes, typename Node::Half{});
+        std::fill_n(grid_.blend(slot), BlockLayout::nodes, Vector{});
+        if (auto* strain = grid_.strain(slot)) std::fill_n(strain, BlockLayout::nodes, typename Node::Half{});
       },
       16);
   for (const std::vector<std::uint32_t>& colour : colours_)
@@ -155,7 +156,7 @@ void ExplicitMpm<Real>::pour_loads(std::size_t lists) {
 /// At a node whose distance is d cells, a point gives w times its momentum m (v + C h d), its stress, and so
 /// on.
 template <class Real>
-void ExplicitMpm<Real>::contribute(const Point& p, Contribution& a) const {
+void ExplicitMpm<Real>::contribute(const Point& p, const Vector& misfit, Contribution& a) const {
   const Real m = p.mass(), e = p.dilation(), per_void = has_void_ ? 1 / p.void_fraction() : Real(1);
   const Real now = p.volume() * (1 + e), volume = now * per_void;
   const Vector C[3] = {with_fourth(p.C[0], Real(0)), with_fourth(p.C[1], Real(0)),
@@ -183,6 +184,8 @@ void ExplicitMpm<Real>::contribute(const Point& p, Contribution& a) const {
   a.middle.quad(2) = m * p.x;
   a.middle.quad(3) = with_fourth(-step_.per_h * volume * p.x, Real(0));
 
+  a.shared = m * with_fourth(misfit, rate_of_shear(p));
+
   const SplineWeights<Real> x(p.x[0]), y(p.x[1]), z(p.x[2]);
   const Vector along = {x.w[0], x.w[1], x.w[2], 0};
   for (int k = 0; k < 3; ++k)
@@ -194,6 +197,7 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
   const PointBlock& block = store_.blocks()[index];
   Node* tile = scratch.tile;
   for (int n = 0; n < BlockLayout::tile_nodes; ++n) tile[n].clear();
+  std::fill_n(scratch.blend, BlockLayout::tile_nodes, Vector{});
   bool strained = false;
   const std::int32_t* stencil = grid_.stencil(grid_.slot_of(block.block));
   double mass = 0;
@@ -204,7 +208,7 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
       for (std::size_t n = 0; n < count; ++n) {
         const Point& p = store_.points[slots[n]];
         mass += static_cast<double>(p.mass());
-        contribute(p, scratch.point[n]);
+        contribute(p, store_.misfit[slots[n]].quad(), scratch.point[n]);
         if (stencil[local] < 0) continue;
         const bool beyond_edge =
             hide_nodes(p, store_.key[slots[n]], stencil[local], scratch.point[n], impulses_[index]);
@@ -214,11 +218,12 @@ void ExplicitMpm<Real>::scatter_block(std::size_t index, ScatterScratch& scratch
         scatter_strain(p, scratch.point[n], beyond_edge, scratch.strain + (corner - tile));
       }
       scatter({scratch.point, count}, corner);
+      scatter_shared({scratch.point, count}, scratch.blend + (corner - tile));
       slots = slots.subspan(count);
     }
   }
   reports_[index].mass = mass;
-  add_tile(block, tile);
+  add_tile(block, tile, scratch.blend);
   if (strained) add_strain(block, scratch.strain);
 }
 
@@ -269,11 +274,29 @@ void ExplicitMpm<Real>::scatter(std::span<const Contribution> points, Node* corn
     }
 }
 
+/// The same for what has no slope.
 template <class Real>
-void ExplicitMpm<Real>::add_tile(const PointBlock& block, const Node* tile) {
+void ExplicitMpm<Real>::scatter_shared(std::span<const Contribution> points, Vector* corner) const {
+  for (int k = 0; k < 3; ++k) {
+    Vector sum[9];
+    for (int n = 0; n < 9; ++n) sum[n] = corner[n % 3 + 6 * (n / 3) + 36 * k];
+    for (const Contribution& a : points) {
+      const Real* w = reinterpret_cast<const Real*>(a.weight + 3 * k);
+      for (int n = 0; n < 9; ++n) sum[n] += w[n % 3 + 4 * (n / 3)] * a.shared;
+    }
+    for (int n = 0; n < 9; ++n) corner[n % 3 + 6 * (n / 3) + 36 * k] = sum[n];
+  }
+}
+
+template <class Real>
+void ExplicitMpm<Real>::add_tile(const PointBlock& block, const Node* tile, const Vector* blend) {
   visit_tile(block, [&](std::int32_t slot, int to, int from, int length) {
     Node* nodes = grid_.nodes(slot);
-    for (int n = 0; n < length; ++n) nodes[to + n].add(tile[from + n]);
+    Vector* blends = grid_.blend(slot);
+    for (int n = 0; n < length; ++n) {
+      nodes[to + n].add(tile[from + n]);
+      blends[to + n] += blend[from + n];
+    }
   });
 }
 
@@ -334,6 +357,7 @@ std::uint32_t ExplicitMpm<Real>::finish_nodes(std::int32_t slot) {
       node[centre + r] *= per_mass;
     }
     node[dilation] *= per_mass;
+    grid_.blend(slot)[n] *= per_mass;
     node[fill] *= per_cell / (open_fraction(slot, n) * void_fraction[n]);
   }
   return with_mass;

@@ -17,6 +17,8 @@ constexpr double eased_above = 0.6, eased_wholly = 0.9;
 /// compresses the water by this much from one node to the next. Below a quarter of it all of the pull
 /// stays.
 constexpr double halved_at = 2e-4, eased_from = halved_at / 4;
+/// Rate of shear, times the time in which points forget, at which nodes pull by their velocity alone.
+constexpr double sheared_wholly = 0.05;
 
 double share_full(double fill) {
   return std::clamp((fill - eased_above) / (eased_wholly - eased_above), 0.0, 1.0);
@@ -75,12 +77,25 @@ void add_with_images(std::span<const WallPlane> planes, std::size_t k, double sp
 /// flow, 1 - (1 + k s)^-3, not evenly: an even field that has its value and slope at s still flows at the
 /// surface, by its slope times (2 x^2 + 4/3 x^3 + x^4/3) / k, x = k s. The node speaks for points at s^2 +
 /// 1/4 in the mean square. Without this a ball is braked as by a liquid of the viscosity h c.
-/// No more than x = 1/2 counts: at the edges of blocks, which bend within a cell, more of it makes spikes.
+/// No more than x = 0.35 counts: at the edges of blocks, which bend within a cell, more of it makes spikes,
+/// and a float of four cells would gain energy and drift off.
 /// @return  the length that multiplies the slope [cells]
 double bend_of_flow(double curvature, double s) {
   if (curvature == 0) return 0;
-  const double x = std::min(0.5, curvature * std::sqrt(s * s + 0.25));
+  const double x = std::min(0.35, curvature * std::sqrt(s * s + 0.25));
   return x * x * (2 + x * (4.0 / 3 + x / 3)) / curvature;
+}
+
+/// Beside a ball of curvature k the speed along it rises from the surface as that past a sphere in creeping
+/// flow, 1 - 3/4 / (1 + x) - 1/4 / (1 + x)^3, x = k s, and there it is as many times as steep as its mean
+/// slope up to s (Stokes 1851; Batchelor, Introduction to Fluid Dynamics, 4.9). Flow that is not creeping is
+/// steeper still. No more than x = 1/2 counts.
+/// @param distance  s [m];  @param curvature  k [1/m], 0 for what is flat
+double steeper_at_ball(double curvature, double distance) {
+  const double x = std::min(0.5, curvature * distance);
+  if (!(x > 1e-6)) return 1;
+  const double r = 1 + x;
+  return 1.5 * x / (1 - 0.75 / r - 0.25 / (r * r * r));
 }
 
 template <class Real>
@@ -127,6 +142,7 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
   const Real gravity_change[3] = {static_cast<Real>(step_.dt * gravity_.x()),
                                   static_cast<Real>(step_.dt * gravity_.y()),
                                   static_cast<Real>(step_.dt * gravity_.z())};
+  const Real sheared_for_all = static_cast<Real>(step_.t_velocity / sheared_wholly);
   const double speed_for_half = halved_at * step_.dt * sound_speed_ * sound_speed_ / h;
   Node* nodes = grid_.nodes(slot);
   for (int n = 0; n < BlockLayout::nodes; ++n) {
@@ -170,7 +186,17 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
     });
     const double pull =
         beside_body ? 1 : pull_of(vector_at(node, change), static_cast<double>(node[fill]), speed_for_half);
-    node[near_wall] = static_cast<Real>(pull);
+    const Real felt = static_cast<Real>(pull) * bulk;
+    node[near_wall] = felt;
+    Vector& blend = grid_.blend(slot)[n];
+    // Beside walls that stand nothing of the misfit may stay: it would not let still water rest. A film that
+    // rubs on its wall is turbulent, and mixed as far as the wall is seen.
+    const bool seen_by_film = config_.wall_slip == WallSlip::turbulent_film && grid_.stencil(slot)[n] >= 0 &&
+                              grid_.stencil(slot)[n] < first_moving;
+    const bool all_goes = bulk < 1 || ((seen_by_film || !planes.empty()) && !beside_body);
+    const Real by_velocity = all_goes ? Real(1) : std::min(Real(1), blend[3] * sheared_for_all);
+    const Vector pulled = static_cast<Real>(pull) * by_velocity * node.quad(0);
+    blend = with_fourth(pulled - felt * (1 - by_velocity) * blend, felt * by_velocity);
   }
 }
 
@@ -252,8 +278,10 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
       const double cn = std::max(0.0, cut_off.dot(plane.normal));
       cut_off -= cn * plane.normal;
       const double arm = std::max(0.0, plane.distance - h * plane.normal.dot(node_offset));
-      const double viscosity = arm > 0 && cn > 0 ? viscosity_of(rest_density, sliding.norm() / arm) : 0.0;
-      kept = arm > 0 ? arm / (arm + step_.dt * water.chi * viscosity * cn / m) : 0.0;
+      const double rate =
+          arm > 0 ? steeper_at_ball(plane.curvature / h, arm) / arm : 0.0;  // per sliding speed
+      const double viscosity = arm > 0 && cn > 0 ? viscosity_of(rest_density, rate * sliding.norm()) : 0.0;
+      kept = arm > 0 ? 1 / (1 + step_.dt * water.chi * rate * viscosity * cn / m) : 0.0;
     } else if (config_.wall_slip == WallSlip::turbulent_film) {
       // Stress rho f/8 |u| u on the wall area that this node stands for; implicit, so never beyond rest.
       const double rate =

@@ -305,7 +305,10 @@ TEST(Jet, OverALipDoesNotFeelTheSheetBeyondIt) {
     forward += points.v[i].x() / static_cast<double>(points.count());
   }
   EXPECT_NEAR(forward, speed, 0.02);
-  EXPECT_NEAR(lag, 0.0, 0.1);
+  EXPECT_LT(lag, 0.05);
+  // The pressure of its own weight, which the sheet bears before the lip, pushes it down beyond that: by no
+  // more than g depth / speed.
+  EXPECT_GT(lag, -g * 0.04 / speed);
 }
 
 // Rocks that take 20 % of the lowest half of the water lift its level by their volume over the area. Each
