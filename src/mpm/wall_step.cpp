@@ -18,7 +18,10 @@ constexpr double eased_above = 0.6, eased_wholly = 0.9;
 /// stays.
 constexpr double halved_at = 2e-4, eased_from = halved_at / 4;
 /// Rate of shear, times the time in which points forget, at which nodes pull by their velocity alone.
-constexpr double sheared_wholly = 0.05;
+constexpr double sheared_wholly = 0.1;
+/// Share of the bend of the flow beside bodies: with all of it one of six cells, as dense as water and at
+/// rest, swims off.
+constexpr double bend_that_counts = 0.85;
 
 double share_full(double fill) {
   return std::clamp((fill - eased_above) / (eased_wholly - eased_above), 0.0, 1.0);
@@ -190,10 +193,12 @@ void ExplicitMpm<Real>::wall_block(std::int32_t slot, std::uint32_t first, WallI
     node[near_wall] = felt;
     Vector& blend = grid_.blend(slot)[n];
     // Beside walls that stand nothing of the misfit may stay: it would not let still water rest. A film that
-    // rubs on its wall is turbulent, and mixed as far as the wall is seen.
+    // rubs on its wall is turbulent, and mixed as far as the wall is seen. Layers between walls without slip
+    // are thinned where the misfit stays in their middle and goes at their walls: there it goes everywhere.
     const bool seen_by_film = config_.wall_slip == WallSlip::turbulent_film && grid_.stencil(slot)[n] >= 0 &&
                               grid_.stencil(slot)[n] < first_moving;
-    const bool all_goes = bulk < 1 || ((seen_by_film || !planes.empty()) && !beside_body);
+    const bool by_walls = seen_by_film || !planes.empty() || config_.wall_slip == WallSlip::no_slip;
+    const bool all_goes = bulk < 1 || (by_walls && !beside_body);
     const Real by_velocity = all_goes ? Real(1) : std::min(Real(1), blend[3] * sheared_for_all);
     const Vector pulled = static_cast<Real>(pull) * by_velocity * node.quad(0);
     blend = with_fourth(pulled - felt * (1 - by_velocity) * blend, felt * by_velocity);
@@ -262,7 +267,7 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
     const double s = plane.distance / h;
     const double hold = in_step * water.chi * 2 * spline_beyond(s);
     const double vn = (v - poses_.velocity(plane.wall, contact)).dot(plane.normal);
-    const double reach = plane.distance + h * bend_of_flow(plane.curvature, s);
+    const double reach = plane.distance + bend_that_counts * h * bend_of_flow(plane.curvature, s);
     const double at_wall = vn + reach * plane.normal.dot(water.strain * plane.normal);
     Vec3 held = Vec3::Zero(), change_here = Vec3::Zero();
     if (at_wall > 0 || pressed) {
