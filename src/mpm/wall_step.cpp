@@ -18,10 +18,10 @@ constexpr double eased_above = 0.6, eased_wholly = 0.9;
 /// stays.
 constexpr double halved_at = 2e-4, eased_from = halved_at / 4;
 /// Rate of shear, times the time in which points forget, at which nodes pull by their velocity alone.
-constexpr double sheared_wholly = 0.1;
+constexpr double sheared_wholly = 0.05;
 /// Share of the bend of the flow beside bodies: with all of it one of six cells, as dense as water and at
 /// rest, swims off.
-constexpr double bend_that_counts = 0.85;
+constexpr double bend_that_counts = 0.75;
 
 double share_full(double fill) {
   return std::clamp((fill - eased_above) / (eased_wholly - eased_above), 0.0, 1.0);
