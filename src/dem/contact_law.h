@@ -32,6 +32,7 @@ struct ContactLaw {
   double friction = 0;  ///< Coulomb coefficient
   double rolling = 0;   ///< rolling torque over R F_n
   ForceLaw force = ForceLaw::linear;
+  Tangential tangential = Tangential::rescaled;
   double adhesion = 0;     ///< pull-off force over effective radius [N/m]
   double modulus = 0;      ///< E* of hertz_mindlin [Pa]
   double shear_ratio = 0;  ///< k_t over tangent normal stiffness of hertz_mindlin, 4 G* / E*

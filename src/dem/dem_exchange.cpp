@@ -130,6 +130,7 @@ void DemSystem::Implementation::exchange_touches(StateArchive& archive, std::vec
                                                  std::size_t length) {
   std::vector<std::array<int, 6>> labels;  // rock, patch, wall, feature, side, copy
   std::vector<std::array<double, 16>> values;
+  std::vector<Vec3> rings;  // of those that have some, one after the other
   for (std::size_t i = 0; i < near.size(); ++i)
     for (const WallTouch& touch : near[i].touches) {
       labels.push_back({static_cast<int>(i), touch.patch, touch.wall, touch.feature, touch.side, touch.copy});
@@ -141,18 +142,27 @@ void DemSystem::Implementation::exchange_touches(StateArchive& archive, std::vec
       put(row, 12, touch.point);
       row[15] = touch.overlap;
       values.push_back(row);
+      rings.insert(rings.end(), touch.rings.begin(), touch.rings.end());
     }
   archive.values("wall_touch_labels", labels);
   archive.values("wall_touches", values);
+  archive.values("wall_rings", rings);
   if (!archive.loading()) return;
   // Which triangles are near is looked up again: contacts do not depend on what else is on the list.
   near.assign(length, {});
+  auto next = rings.cbegin();
   for (std::size_t k = 0; k < labels.size(); ++k) {
     const auto& [rock, patch, wall, feature, side, copy] = labels[k];
     const auto& row = values[k];
-    near[static_cast<std::size_t>(rock)].touches.push_back({patch, wall, feature, side, take(row, 0),
-                                                            take(row, 12), row[15], take(row, 3),
-                                                            take(row, 6), take(row, 9), copy});
+    WallTouch touch{patch,   wall,         feature,      side,         take(row, 0), take(row, 12),
+                    row[15], take(row, 3), take(row, 6), take(row, 9), copy,         {}};
+    const auto at = static_cast<std::size_t>(rock);
+    const int wall_material = walls.all()[static_cast<std::size_t>(wall)].material;
+    if (law(rocks.material[at], wall_material).tangential == Tangential::partial_slip) {
+      touch.rings.assign(next, next + shear_rings);
+      next += shear_rings;
+    }
+    near[at].touches.push_back(std::move(touch));
   }
 }
 

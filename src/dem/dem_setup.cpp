@@ -100,6 +100,8 @@ DemSystem::Implementation::Implementation(const DemConfig& config_in, DemScene s
       moving(moving_walls(walls)),
       pairs({std::any_of(scene.materials.pairs.begin(), scene.materials.pairs.end(),
                          [](const PairProperties& p) { return p.rolling > 0; }),
+             std::any_of(scene.materials.pairs.begin(), scene.materials.pairs.end(),
+                         [](const PairProperties& p) { return p.tangential == Tangential::partial_slip; }),
              std::any_of(scene.shapes.begin(), scene.shapes.end(),
                          [](const RockShape& s) { return !s.is_sphere(); })}),
       overlap_histogram(0, overlap_histogram_top,

@@ -51,6 +51,7 @@ ContactLaw contact_law(const Materials& materials, int a, int b, EndOfContact en
   law.friction = pair.friction;
   law.rolling = pair.rolling;
   law.force = pair.law;
+  law.tangential = pair.tangential;
   law.adhesion = pair.adhesion;
   if (pair.law == ForceLaw::hertz_mindlin) {
     const Material &first = materials.all[static_cast<std::size_t>(a)],

@@ -13,11 +13,15 @@
 ///               added sees the new stiffness; as it shrinks the stretch stays and the force falls with
 ///               k_t (Thornton, Cummins & Cleary 2013, Powder Technol. 233:30). Either way the spring
 ///               loses energy, which counts as friction; kept as it was, it would make energy of nothing.
+///               So much for `rescaled`. `whole_stretch` is the law of most published codes: force k_t times
+///               all the stretch at any overlap; what that makes of nothing counts as negative friction.
+///               `partial_slip` cuts the contact into rings that slip from the rim inwards (partial_slip.h).
 ///
 /// R* = R1 R2 / (R1 + R2) with half the size of each rock, superquadrics too (their curvature at the
 /// contact is not looked at: a flat face is stiffer, a tip softer); a wall has an infinite radius.
 
 #include "dem/contact_law.h"
+#include "dem/partial_slip.h"
 #include "dem/sampled_dashpot.h"
 
 namespace sluice {
@@ -51,7 +55,8 @@ double hertz_contact_time(const ContactLaw& law, const Indentation& at, double s
 
 /// Stiffness that turns what is kept of a tangential spring into its energy, 1/2 k |spring|^2 [N/m].
 /// The linear law keeps the stretch. Hertz-Mindlin keeps the stretch times (overlap / R*)^(1/4), so
-/// that the energy needs no overlap and a spring that snaps back loses what it really held.
+/// that the energy needs no overlap and a spring that snaps back loses what it really held; with rings,
+/// what a single spring would be stretched that held as much as all of them.
 inline double spring_stiffness(const ContactLaw& law, double linear_k_t, double radius_effective) {
   return law.force == ForceLaw::linear ? linear_k_t : law.shear_ratio * 2 * law.modulus * radius_effective;
 }
@@ -61,18 +66,15 @@ inline double normal_stiffness(const ContactLaw& law, double linear_k_n, const I
   return law.force == ForceLaw::linear ? linear_k_n : tangent_stiffness(law, at);
 }
 
-/// One step of a contact under Hertz-Mindlin; arguments as for `contact_force`.
-/// @param spring  stretch times (overlap / R*)^(1/4) [m], in and out
-/// @pre at.overlap >= 0 [m]
-inline ContactForce hertz_mindlin_force(const ContactLaw& law, const Indentation& at, EndOfContact end,
-                                        const Vec3& n, const Vec3& velocity, double dt, Vec3& spring) {
-  const double held = 0.5 * spring_stiffness(law, 0, at.radius_effective) * spring.squaredNorm();
-  if (!(at.overlap > 0)) {
-    spring.setZero();
-    ContactForce nothing;
-    nothing.lost_friction = held;
-    return nothing;
-  }
+/// What a contact remembers of its shear.
+struct ShearMemory {
+  Vec3& spring;                ///< see spring_stiffness [m]
+  std::span<Vec3> rings = {};  ///< shear_rings with partial_slip, else none [m]
+};
+
+/// Constants of the linear law that holds at this overlap.
+inline ContactConstants hertz_mindlin_constants(const ContactLaw& law, const Indentation& at,
+                                                EndOfContact end, double closing, double dt) {
   const double stiffness = tangent_stiffness(law, at);
   ContactConstants c;
   c.k_n = 2.0 / 3 * stiffness;  // secant
@@ -83,19 +85,72 @@ inline ContactForce hertz_mindlin_force(const ContactLaw& law, const Indentation
   c.mass = at.mass_effective;
   c.end = end;
   // The sample of a first touch stands for a time in which the damping grows with overlap^(1/4).
-  const double closing = velocity.dot(n);
   if (time_in_contact(at.overlap, closing, dt, end == EndOfContact::no_tension) < 1)
     c.c_n *= 0.8 * std::sqrt(std::sqrt(1 + 0.5 * std::abs(closing) * dt / at.overlap));
+  return c;
+}
 
-  // The contact grew or shrank since the last step: the energy falls with the radius of the contact.
-  const double before = std::max(0.0, at.overlap - closing * dt);
-  const double kept = std::sqrt(std::min(at.overlap, before) / std::max(at.overlap, before));
-  const double root = std::sqrt(std::sqrt(at.overlap / at.radius_effective));
-  Vec3 stretch = spring * (std::sqrt(kept) / root);
+/// One step under Hertz's law with the shear of partial_slip.h.
+/// @param energy  of the springs over |spring|^2 [N/m]
+/// @param growth  of the half width since the last step; infinite at first touch
+inline ContactForce partial_slip_force(const ContactConstants& c, const Vec3& n, double overlap,
+                                       const Vec3& velocity, double dt, double growth, double energy,
+                                       const ShearMemory& memory) {
+  ContactConstants smooth = c;
+  smooth.friction = 0;
+  Vec3 none = Vec3::Zero();
+  ContactForce result = contact_force(smooth, n, overlap, velocity, dt, none);
+  const double held = energy * memory.spring.squaredNorm(), limit = c.friction * std::max(0.0, result.normal);
+  const Vec3 sliding = velocity - velocity.dot(n) * n;
+  if (std::isfinite(growth))
+    resize_rings(memory.rings, growth);
+  else
+    std::fill(memory.rings.begin(), memory.rings.end(), Vec3::Zero());
+  const RingShear springs = shear(memory.rings, n, dt * sliding, c.k_t, limit);
+  Vec3 across = springs.force - c.c_t * sliding;
+  if (across.norm() > limit) across *= limit / across.norm();
+  result.force += across;
+  result.lost_friction = -across.dot(sliding) * dt - (springs.held - held);
+  result.elastic += springs.held;
+  memory.spring = -std::sqrt(springs.held / energy) * springs.force.stableNormalized();
+  return result;
+}
+
+/// One step of a contact under Hertz-Mindlin; arguments as for `contact_force`.
+/// @param memory  in and out
+/// @pre at.overlap >= 0 [m]
+inline ContactForce hertz_mindlin_force(const ContactLaw& law, const Indentation& at, EndOfContact end,
+                                        const Vec3& n, const Vec3& velocity, double dt,
+                                        const ShearMemory& memory) {
+  Vec3& spring = memory.spring;
+  const double energy = 0.5 * spring_stiffness(law, 0, at.radius_effective);
+  const double held = energy * spring.squaredNorm();
+  if (!(at.overlap > 0)) {
+    spring.setZero();
+    std::fill(memory.rings.begin(), memory.rings.end(), Vec3::Zero());
+    ContactForce nothing;
+    nothing.lost_friction = held;
+    return nothing;
+  }
+  const double closing = velocity.dot(n);
+  const ContactConstants c = hertz_mindlin_constants(law, at, end, closing, dt);
+  const double before = std::max(0.0, at.overlap - closing * dt);  // of the last step
+  const double not_half = 0.1 * c.k_n * at.overlap * at.overlap;   // 2/5 F overlap, not 1/2
+  if (law.tangential == Tangential::partial_slip) {
+    ContactForce result =
+        partial_slip_force(c, n, at.overlap, velocity, dt, std::sqrt(at.overlap / before), energy, memory);
+    result.elastic -= not_half;
+    return result;
+  }
+  // The contact grew or shrank since: rescaled, the energy falls with the radius of the contact.
+  const auto root = [&](double overlap) { return std::sqrt(std::sqrt(overlap / at.radius_effective)); };
+  double kept = std::sqrt(std::min(at.overlap, before) / std::max(at.overlap, before));
+  if (law.tangential == Tangential::whole_stretch) kept = before > 0 ? std::sqrt(at.overlap / before) : 0;
+  Vec3 stretch = spring * (std::sqrt(kept) / root(at.overlap));
   ContactForce result = contact_force(c, n, at.overlap, velocity, dt, stretch);
-  spring = root * stretch;
+  spring = root(at.overlap) * stretch;
   result.lost_friction += held * (1 - kept);
-  result.elastic -= 0.1 * c.k_n * at.overlap * at.overlap;  // 2/5 F overlap, not 1/2
+  result.elastic -= not_half;
   return result;
 }
 
@@ -106,10 +161,10 @@ inline ContactForce hertz_mindlin_force(const ContactLaw& law, const Indentation
 /// can be drawn apart with. It is a potential, -F overlap, counted in `elastic`. Coulomb's limit and
 /// rolling resistance go by the force without it, and so does the end of the dashpot's contact.
 inline ContactForce law_force(const ContactLaw& law, const ContactConstants& linear, const Indentation& at,
-                              const Vec3& n, const Vec3& velocity, double dt, Vec3& spring) {
+                              const Vec3& n, const Vec3& velocity, double dt, const ShearMemory& memory) {
   ContactForce result = law.force == ForceLaw::linear
-                            ? contact_force(linear, n, at.overlap, velocity, dt, spring)
-                            : hertz_mindlin_force(law, at, linear.end, n, velocity, dt, spring);
+                            ? contact_force(linear, n, at.overlap, velocity, dt, memory.spring)
+                            : hertz_mindlin_force(law, at, linear.end, n, velocity, dt, memory);
   if (law.adhesion > 0 && at.overlap > 0) {
     const double pull = law.adhesion * at.radius_effective;
     result.force += pull * n;

@@ -19,14 +19,22 @@ enum class ForceLaw {
   hertz_mindlin,  ///< elastic spheres; its stiffness is that of the materials
 };
 
+/// What a contact of hertz_mindlin does across its normal.
+enum class Tangential {
+  rescaled,       ///< one spring; none of its changes of stiffness makes energy
+  whole_stretch,  ///< one spring, its force stiffness times stretch at any overlap; may make energy
+  partial_slip,   ///< springs in rings, which slip from the rim inwards
+};
+
 /// One pair of materials.
 struct PairProperties {
   double restitution = 0.3;  ///< normal, in (0, 1]
   double friction = 0.5;     ///< Coulomb coefficient, sliding and static
   double rolling = 0;        ///< rolling resistance coefficient (torque <= rolling * R * F_n)
   ForceLaw law = ForceLaw::linear;
-  double adhesion = 0;  ///< pull-off force over effective radius [N/m]
-  bool meets = true;    ///< false: the two never touch, and ask for no stiffness
+  Tangential tangential = Tangential::rescaled;  ///< of hertz_mindlin
+  double adhesion = 0;                           ///< pull-off force over effective radius [N/m]
+  bool meets = true;                             ///< false: the two never touch, and ask for no stiffness
 };
 
 struct Materials {

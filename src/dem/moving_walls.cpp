@@ -55,12 +55,15 @@ WallTouch MovingWalls::to_space(const WallTouch& touch) const {
   out.point = now.to_space(touch.point);
   out.spring = now.q * touch.spring;
   out.turned = now.q * touch.turned;
+  for (Vec3& stretch : out.rings) stretch = now.q * stretch;
   return out;
 }
 
 void MovingWalls::keep_history(const WallTouch& in_space, WallTouch& touch) const {
   touch.spring = now.q.conjugate() * in_space.spring;
   touch.turned = now.q.conjugate() * in_space.turned;
+  touch.rings = in_space.rings;
+  for (Vec3& stretch : touch.rings) stretch = now.q.conjugate() * stretch;
 }
 
 }  // namespace sluice

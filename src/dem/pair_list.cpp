@@ -17,6 +17,7 @@ void PairList::resize_memories(std::size_t pairs) {
   touching.assign(pairs, 0);
   spring.assign(pairs, Vec3::Zero());
   if (contents_.rolling) turned.assign(pairs, Vec3::Zero());
+  if (contents_.rings) rings.assign(pairs, no_stretch());
   if (!contents_.superquadrics) return;
   memory.assign(pairs, {});
   clear.assign(pairs, 0);
@@ -26,6 +27,7 @@ void PairList::copy_memory(const PairList& from, std::size_t old_pair, std::size
   touching[new_pair] = from.touching[old_pair];
   spring[new_pair] = from.spring[old_pair];
   if (contents_.rolling) turned[new_pair] = from.turned[old_pair];
+  if (contents_.rings) rings[new_pair] = from.rings[old_pair];
   if (!contents_.superquadrics) return;
   memory[new_pair] = from.memory[old_pair];
   clear[new_pair] = from.clear[old_pair];
@@ -114,6 +116,7 @@ void PairList::rebuild(std::span<const Vec3> x, std::span<const double> reach, c
   old.touching.swap(touching);
   old.spring.swap(spring);
   old.turned.swap(turned);
+  old.rings.swap(rings);
   old.memory.swap(memory);
   old.clear.swap(clear);
   find(x, reach, domain, blocky);
@@ -147,6 +150,7 @@ void PairList::renumber(std::span<const int> new_index, std::size_t new_count) {
   touching.resize(kept);
   spring.resize(kept);
   if (contents_.rolling) turned.resize(kept);
+  if (contents_.rings) rings.resize(kept);
   if (contents_.superquadrics) {
     memory.resize(kept);
     clear.resize(kept);
@@ -188,6 +192,7 @@ void PairList::reorder(std::span<const int> new_index) {
   old.touching.swap(touching);
   old.spring.swap(spring);
   old.turned.swap(turned);
+  old.rings.swap(rings);
   old.memory.swap(memory);
   old.clear.swap(clear);
   resize_memories(entries.size());
@@ -197,6 +202,7 @@ void PairList::reorder(std::span<const int> new_index) {
     if (!entries[p].turned_round) continue;
     spring[p] = -spring[p];
     if (contents_.rolling) turned[p] = -turned[p];
+    for (Vec3& stretch : rings_of(p)) stretch = -stretch;
     if (contents_.superquadrics) memory[p].turn_round();
   }
   start.swap(new_start);
@@ -210,6 +216,7 @@ void PairList::exchange(StateArchive& archive) {
   archive.values("touching", touching);
   archive.values("spring", spring);
   archive.values("turned", turned);
+  archive.values("rings", rings);
   archive.values("clear", clear);
   std::vector<std::array<double, memory_columns>> rows(memory.size());
   for (std::size_t p = 0; p < memory.size(); ++p) {
@@ -238,6 +245,7 @@ std::size_t PairList::memory_bytes() const {
   bytes += clear.capacity() * sizeof(double);
   bytes += (first.capacity() + queue.capacity()) * sizeof(std::uint32_t);
   bytes += second.capacity() * sizeof(int) + touching.capacity();
+  bytes += rings.capacity() * sizeof(rings[0]);
   bytes += (spring.capacity() + turned.capacity()) * sizeof(Vec3) + memory.capacity() * sizeof(PairMemory);
   for (const auto& chunk : found_) bytes += chunk.capacity() * sizeof(chunk[0]);
   return bytes;

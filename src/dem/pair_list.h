@@ -24,6 +24,7 @@
 #include "base/domain.h"
 #include "base/state_archive.h"
 #include "dem/cell_grid.h"
+#include "dem/partial_slip.h"
 #include "dem/superquadric_contact.h"
 
 namespace sluice {
@@ -31,6 +32,7 @@ namespace sluice {
 /// What a scene needs remembered for each pair.
 struct PairContents {
   bool rolling = false;        ///< some pair of materials has rolling resistance
+  bool rings = false;          ///< some pair of materials slips from the rim of its contacts inwards
   bool superquadrics = false;  ///< some shape is not a sphere
 };
 
@@ -56,17 +58,22 @@ class PairList {
   void exchange(StateArchive& archive);
   std::size_t memory_bytes() const;
 
+  /// Of pair p; empty where no pair has any.
+  std::span<Vec3> rings_of(std::size_t p) {
+    return rings.empty() ? std::span<Vec3>{} : std::span<Vec3>(rings[p]);
+  }
   std::size_t pair_count() const { return second.size(); }
   std::size_t rock_count() const { return start.size() - 1; }
 
-  std::vector<std::uint32_t> start;      ///< #rocks + 1: pairs of rock i are start[i] .. start[i + 1]
-  std::vector<std::uint32_t> first;      ///< #pairs: i
-  std::vector<int> second;               ///< #pairs: j > i
-  std::vector<std::uint32_t> queue;      ///< #pairs: of the reaction on j; no_queue where j is of i's chunk
-  std::vector<std::uint8_t> touching;    ///< #pairs
-  std::vector<Vec3> spring;              ///< #pairs: tangential stretch [m]
-  std::vector<Vec3> turned;              ///< #pairs or empty: rolling history [rad]
-  std::vector<PairMemory> memory;        ///< #pairs or empty: superquadric warm start
+  std::vector<std::uint32_t> start;    ///< #rocks + 1: pairs of rock i are start[i] .. start[i + 1]
+  std::vector<std::uint32_t> first;    ///< #pairs: i
+  std::vector<int> second;             ///< #pairs: j > i
+  std::vector<std::uint32_t> queue;    ///< #pairs: of the reaction on j; no_queue where j is of i's chunk
+  std::vector<std::uint8_t> touching;  ///< #pairs
+  std::vector<Vec3> spring;            ///< #pairs: tangential stretch [m]
+  std::vector<Vec3> turned;            ///< #pairs or empty: rolling history [rad]
+  std::vector<std::array<Vec3, shear_rings>> rings;  ///< #pairs or empty: stretch of each ring [m]
+  std::vector<PairMemory> memory;                    ///< #pairs or empty: superquadric warm start
   std::vector<double> clear;             ///< #pairs or empty: they cannot touch before coming this closer [m]
   std::vector<std::uint32_t> out_start;  ///< #chunks + 1: queues that leave a chunk, by where they go
   std::vector<std::uint32_t> in_start;   ///< #chunks + 1: queues that a chunk receives ...

@@ -191,8 +191,8 @@ void DemSystem::Implementation::touch_pair(DemChunk& chunk, const Candidate& can
   const Vec3 velocity = a.v - b.v + a.w.cross(arm_a) - b.w.cross(arm_b);
   const Indentation at{touch.overlap, 0.5 * a.size * b.size / (a.size + b.size), touch.mass_effective};
   const double share = share_of(i, j);
-  const ContactForce contact =
-      law_force(pair_law, constants, at, touch.normal, velocity, time.dt, pairs.spring[p]);
+  const ContactForce contact = law_force(pair_law, constants, at, touch.normal, velocity, time.dt,
+                                         {pairs.spring[p], pairs.rings_of(p)});
   const Vec3 force_a = share * contact.force;
   Vec3 torque_a = arm_a.cross(force_a), torque_b = arm_b.cross(-force_a);
   chunk.lost_normal += share * contact.lost_normal;
@@ -230,6 +230,7 @@ void DemSystem::Implementation::end_pair(DemChunk& chunk, std::size_t i, std::si
   chunk.lost_friction += share_of(i, j) * 0.5 * k_spring * pairs.spring[p].squaredNorm();
   pairs.touching[p] = 0;
   pairs.spring[p].setZero();
+  for (Vec3& stretch : pairs.rings_of(p)) stretch.setZero();
   if (has_rolling) pairs.turned[p].setZero();
 }
 

@@ -124,7 +124,9 @@ void DemSystem::Implementation::touch_wall(DemChunk& chunk, std::size_t i, WallT
       contact_constants(pair_law, k_n, config.tangential_ratio, at.mass_effective, config.end_of_contact);
   const Vec3 velocity = body.v + body.w.cross(arm) - moves.velocity;
   const double share = is_blocky(i) ? face_share : 1;
-  ContactForce contact = law_force(pair_law, constants, at, touch.normal, velocity, time.dt, touch.spring);
+  if (pair_law.tangential == Tangential::partial_slip) touch.rings.resize(shear_rings, Vec3::Zero());
+  ContactForce contact =
+      law_force(pair_law, constants, at, touch.normal, velocity, time.dt, {touch.spring, touch.rings});
   Vec3 moment = Vec3::Zero();
   double lost_rolling = 0;
   if (has_rolling && pair_law.rolling > 0) {

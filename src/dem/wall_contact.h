@@ -18,15 +18,16 @@ namespace sluice {
 struct WallTouch {
   int patch = -1;
   int wall = -1;
-  int feature = -1;            ///< -1 face, else 2 e for edge e, 2 v + 1 for vertex v
-  int side = 1;                ///< of the patch's normal on which the rock's centre was at first touch
-  Vec3 normal = Vec3::Zero();  ///< from rock to wall, unit
-  Vec3 point = Vec3::Zero();   ///< [m]
-  double overlap = 0;          ///< [m]
-  Vec3 spring = Vec3::Zero();  ///< tangential stretch [m]
-  Vec3 turned = Vec3::Zero();  ///< rolling history [rad]
-  Vec3 start = Vec3::Zero();   ///< warm start of a superquadric on an edge or vertex, body frame [m]
-  int copy = 0;                ///< of a blocky rock, which of its copies touches (faces.h)
+  int feature = -1;              ///< -1 face, else 2 e for edge e, 2 v + 1 for vertex v
+  int side = 1;                  ///< of the patch's normal on which the rock's centre was at first touch
+  Vec3 normal = Vec3::Zero();    ///< from rock to wall, unit
+  Vec3 point = Vec3::Zero();     ///< [m]
+  double overlap = 0;            ///< [m]
+  Vec3 spring = Vec3::Zero();    ///< tangential stretch [m]
+  Vec3 turned = Vec3::Zero();    ///< rolling history [rad]
+  Vec3 start = Vec3::Zero();     ///< warm start of a superquadric on an edge or vertex, body frame [m]
+  int copy = 0;                  ///< of a blocky rock, which of its copies touches (faces.h)
+  std::vector<Vec3> rings = {};  ///< shear_rings with partial_slip, else none: stretch of each [m]
 };
 
 struct WallHit {
@@ -77,6 +78,7 @@ void carry_history(std::vector<WallTouch>& before, WallScratch& scratch, const L
         if (round > 0 && old.normal.dot(found[f].normal) < same_direction) continue;
         found[f].spring = old.spring;
         found[f].turned = old.turned;
+        found[f].rings = old.rings;
         scratch.taken[b] = scratch.taken[before.size() + f] = 1;
         break;
       }

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Raised whenever an older program could misread what is stored.
-constexpr const char* format_version = "2";
+constexpr const char* format_version = "3";
 
 constexpr const char* version_key = "sluice_checkpoint_version";
 constexpr const char* process_key = "process_sha256";

@@ -90,6 +90,16 @@ void ContactConfig::keys(Schema& s) {
            {.doc = "linear: a spring as stiff as the overlaps under 'rocks' ask for; hertz_mindlin: elastic "
                    "spheres of half the size, as stiff as the materials"});
   law_at = s.at("law");
+  s.choice(
+      "tangential", properties.tangential,
+      {{"rescaled", Tangential::rescaled},
+       {"whole_stretch", Tangential::whole_stretch},
+       {"partial_slip", Tangential::partial_slip}},
+      {.doc = "with 'law: hertz_mindlin'. rescaled: one spring, which makes no energy; whole_stretch: its "
+              "force is stiffness times all its stretch, as in many codes, and may make energy; "
+              "partial_slip: the contact slips from its rim inwards, as elastic bodies do"});
+  if (s.given("tangential") && properties.law != ForceLaw::hertz_mindlin)
+    s.problem("tangential", "has no effect", "'law' is linear", "write 'law: hertz_mindlin', or take it out");
   s.number("adhesion", properties.adhesion,
            {.unit = "N/m",
             .at_least = 0,

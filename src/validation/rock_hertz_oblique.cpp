@@ -18,6 +18,11 @@ void RockHertzOblique::keys(Schema& s) {
   s.number("poisson", poisson, {.above = -1, .at_most = 0.5, .doc = "Poisson's ratio of the sphere"});
   s.number("friction", friction, {.above = 0, .doc = "Coulomb's coefficient"});
   s.number("restitution", restitution, {.above = 0, .at_most = 1, .doc = "along the normal"});
+  s.choice("tangential", tangential,
+           {{"rescaled", Tangential::rescaled},
+            {"whole_stretch", Tangential::whole_stretch},
+            {"partial_slip", Tangential::partial_slip}},
+           {.doc = "as in a process file"});
   s.choice("vary", vary, {{"angle", ObliqueVary::angle}, {"tangential_speed", ObliqueVary::tangential_speed}},
            {.doc = "angle at constant speed, or the speed along the plane at constant speed against it"});
   s.text("curve", curve, {.doc = "published curves"});
@@ -81,7 +86,7 @@ Measured RockHertzOblique::run(const CsvTable& reference) const {
     else
       out.note = without_table(curve);
   }
-  const ImpactSphere sphere{{"sphere", density, modulus, poisson}, radius, friction, restitution};
+  const ImpactSphere sphere{{"sphere", density, modulus, poisson}, radius, friction, restitution, tangential};
   const double sliding =
       friction * (1 + restitution);  // of the speed along the normal goes, if it slides throughout
   for (const Point& p : points) {

@@ -19,6 +19,7 @@ struct RockHertzOblique : Measure {
   double speed = 3.9;                                      ///< in all, or along the normal [m/s]
   double density = 4000, modulus = 380e9, poisson = 0.23;  ///< [kg/m3], [Pa]
   double friction = 0.092, restitution = 0.98;
+  Tangential tangential = Tangential::rescaled;
   ObliqueVary vary = ObliqueVary::angle;
   std::string curve;   ///< file of measured_table.h; "" = none
   std::string series;  ///< of that file

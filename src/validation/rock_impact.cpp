@@ -17,7 +17,7 @@ Impact impact_of(const ImpactSphere& sphere, const Vec3& v, ImpactAgainst agains
   RockSetup setup;
   setup.rocks = {sphere.material};
   setup.wall = {"rigid plane", 0, rigid_modulus, 0.3};
-  setup.pair = {sphere.restitution, sphere.friction, 0, ForceLaw::hertz_mindlin};
+  setup.pair = {sphere.restitution, sphere.friction, 0, ForceLaw::hertz_mindlin, sphere.tangential};
   setup.smallest = setup.largest = 2 * sphere.radius;
   std::vector<Wall> walls;
   if (!twin) walls.push_back(level_wall(setup, 0, 1000 * sphere.radius));

@@ -11,6 +11,7 @@ struct ImpactSphere {
   Material material;
   double radius = 0;  ///< [m]
   double friction = 0, restitution = 1;
+  Tangential tangential = Tangential::rescaled;
 };
 
 enum class ImpactAgainst {

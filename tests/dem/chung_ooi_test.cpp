@@ -17,11 +17,13 @@ struct Sphere {
   Material material;
   double radius;
   double friction = 0, restitution = 1;
+  Tangential tangential = Tangential::rescaled;
 };
 
 DemScene scene_of_one(const Sphere& sphere) {
   PairProperties pair{sphere.restitution, sphere.friction, 0};
   pair.law = ForceLaw::hertz_mindlin;
+  pair.tangential = sphere.tangential;
   DemScene scene = scene_of(pair, 2 * sphere.radius);
   scene.materials.all = {sphere.material, rigid};
   scene.densest = sphere.material.density;
@@ -147,6 +149,42 @@ TEST(ChungOoi4, ObliqueImpactAtConstantSpeedFollowsTheirCurves) {
   EXPECT_NEAR(rebound(10.16).v.x() / (3.9 * std::sin(10.16 * M_PI / 180)), 0.687, 0.03);
   EXPECT_GT(rebound(5.9).w.y(), 19.3);   // theirs at 4.95 degrees
   EXPECT_LT(rebound(5.9).w.y(), 134.9);  // measured at 5.90 degrees
+}
+
+TEST(ChungOoi4, FollowsTheirCurveDownToFiveDegreesWithTheirLaw) {
+  const Sphere sphere{{"aluminium oxide", 4000, 380e9, 0.23}, 0.0025, 0.092, 0.98, Tangential::whole_stretch};
+  const auto rebound = [&](double degrees) {
+    const double angle = degrees * M_PI / 180;
+    return on_plane(sphere, 3.9 * std::cos(angle), 3.9 * std::sin(angle)).v.x() / (3.9 * std::sin(angle));
+  };
+  EXPECT_NEAR(rebound(5), 0.948, 0.02);
+  EXPECT_NEAR(rebound(10.16), 0.687, 0.02);
+}
+
+TEST(ChungOoi4, SpinsAsMeasuredNearTheNormalOnlyWithPartialSlip) {
+  // Kharaz, Gorham & Salman (2001): 135 rad/s at 5.90 degrees, 261 at 10.87.
+  const auto spin = [&](Tangential law, double degrees) {
+    const Sphere sphere{{"aluminium oxide", 4000, 380e9, 0.23}, 0.0025, 0.092, 0.98, law};
+    const double angle = degrees * M_PI / 180;
+    return on_plane(sphere, 3.9 * std::cos(angle), 3.9 * std::sin(angle)).w.y();
+  };
+  EXPECT_NEAR(spin(Tangential::partial_slip, 5.90), 135, 27);
+  EXPECT_NEAR(spin(Tangential::partial_slip, 10.87), 261, 13);
+  for (Tangential law : {Tangential::rescaled, Tangential::whole_stretch})
+    EXPECT_LT(spin(law, 5.90), 0.5 * 135);
+}
+
+TEST(ChungOoi5, PartialSlipFollowsTheFiniteElements) {
+  const Sphere sphere{{"steel", 7850, 208e9, 0.3}, 1e-5, 0.3, 1, Tangential::partial_slip};
+  struct Case {
+    double psi_1, finite_elements;
+  };
+  for (const Case& c : {Case{0.272, -0.027}, Case{0.586, -0.027}, Case{0.876, -0.08}, Case{1.190, -0.213},
+                        Case{1.915, -0.627}, Case{2.785, -1.253}, Case{3.970, -1.72}, Case{4.755, -1.707}}) {
+    const Impact impact = on_plane(sphere, 5, c.psi_1 * 0.3 * 5);
+    const double psi_2 = (impact.v.x() - sphere.radius * impact.w.y()) / (0.3 * 5);
+    EXPECT_NEAR(psi_2, c.finite_elements, 0.18) << c.psi_1;
+  }
 }
 
 TEST(ChungOoi5, ObliqueImpactAtConstantNormalSpeedLiesNearerToTheFiniteElementsThanTheirs) {

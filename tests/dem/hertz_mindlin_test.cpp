@@ -34,7 +34,7 @@ Rebound rebound(const ContactLaw& law, EndOfContact end, double speed, double su
   do {
     at.overlap += dt * v.z();
     if (at.overlap <= 0) break;
-    const ContactForce f = hertz_mindlin_force(law, at, end, Vec3::UnitZ(), v, dt, spring);
+    const ContactForce f = hertz_mindlin_force(law, at, end, Vec3::UnitZ(), v, dt, {spring});
     v += dt / m * Vec3(3.5 * f.force.x(), 0, f.force.z());
     result.overlap = std::max(result.overlap, at.overlap);
     if (f.normal > 0 || end == EndOfContact::tension) result.time += dt;
@@ -94,7 +94,7 @@ TEST(HertzMindlin, HasNoForceAtFirstTouchAndThePowerLawBeyond) {
   Vec3 spring = Vec3::Zero();
   const auto normal = [&](double overlap) {
     return hertz_mindlin_force(law, {overlap, 0.005, 0.001}, EndOfContact::no_tension, Vec3::UnitZ(),
-                               Vec3::Zero(), 1e-7, spring)
+                               Vec3::Zero(), 1e-7, {spring})
         .normal;
   };
   EXPECT_EQ(normal(0), 0);
@@ -109,7 +109,7 @@ TEST(HertzMindlin, KeepsTheForceOfTheSpringWhileLoadingAndItsStretchWhileUnloadi
   const double dt = 1e-7;
   const auto step = [&](double overlap, const Vec3& velocity) {
     return hertz_mindlin_force(law, {overlap, 0.005, 0.001}, EndOfContact::no_tension, Vec3::UnitZ(),
-                               velocity, dt, spring);
+                               velocity, dt, {spring});
   };
   const double sheared = step(1e-5, Vec3(1, 0, 0)).force.x();
   EXPECT_NEAR(sheared, -law.shear_ratio * tangent_stiffness(law, {1e-5, 0.005, 0.001}) * dt, 1e-9);
@@ -130,7 +130,7 @@ TEST(HertzMindlin, NeverMakesEnergyOverAnyPathOfLoadingAndShear) {
       if (overlap + velocity.z() * dt < 0 || overlap > 5e-5) velocity.z() *= -1;
       overlap = std::max(0.0, overlap + velocity.z() * dt);
       const ContactForce f = hertz_mindlin_force(law, {overlap, 0.005, 0.001}, EndOfContact::no_tension,
-                                                 Vec3::UnitZ(), velocity, dt, spring);
+                                                 Vec3::UnitZ(), velocity, dt, {spring});
       const Vec3 across(velocity.x(), velocity.y(), 0);
       const double spring_held = 0.5 * spring_stiffness(law, 0, 0.005) * spring.squaredNorm();
       worked -= f.force.dot(across) * dt;

@@ -74,17 +74,36 @@ TEST(ElasticRocks, KeepTheEnergyBudgetToTheOrderOfTheStep) {
   EXPECT_LT(fine, 0.4 * coarse);
 }
 
-TEST(ElasticRocks, GiveTheSameBitsWithAnyNumberOfThreads) {
+/// Upright and turning about z among the rocks, over a plane.
+Walls plane_and_paddle() {
+  std::vector<Wall> all{plane_wall(1, 5),
+                        plane_wall(0.04, 2, Quat(Eigen::AngleAxisd(0.5 * M_PI, Vec3::UnitX())))};
+  all[1].motion.emplace();
+  all[1].motion->kind = MotionKind::rotation;
+  all[1].motion->axis = Vec3::UnitZ();
+  all[1].motion->speed = 20;
+  return Walls(std::move(all));
+}
+
+class ElasticRocksOf : public testing::TestWithParam<Tangential> {
+ protected:
+  static DemScene scene() {
+    PairProperties pair{0.3, 0.5, 0.05};
+    pair.adhesion = 20;
+    pair.tangential = GetParam();
+    return elastic_scene(pair, {make_sphere(), make_superquadric(1.5, 0.8, 3), make_superquadric(1, 1, 10)});
+  }
+};
+
+TEST_P(ElasticRocksOf, EachTangentialLawGiveTheSameBitsWithAnyNumberOfThreads) {
   const int threads = thread_count();
   std::uint64_t expected = 0;
-  PairProperties pair{0.3, 0.5, 0.05};
-  pair.adhesion = 20;
   for (int n : {1, 2, 3}) {
     set_thread_count(n);
     const Walls walls = walls_of(plane_wall(1, 5));
-    DemSystem dem({}, elastic_scene(pair, {make_sphere(), make_superquadric(1.5, 0.8, 3)}), walls);
-    fill(dem, 7, 0.032, Vec3(-0.1, -0.1, 0), 5, 3);
-    run(dem, 400 * dem.step_size());
+    DemSystem dem({}, scene(), walls);
+    fill(dem, 6, 0.036, Vec3(-0.1, -0.1, 0), 5, 3);
+    run(dem, 300 * dem.step_size());
     EXPECT_GT(dem.overlap_max(), 0.1);
     if (n == 1) expected = dem.state_hash();
     EXPECT_EQ(dem.state_hash(), expected);
@@ -92,24 +111,66 @@ TEST(ElasticRocks, GiveTheSameBitsWithAnyNumberOfThreads) {
   set_thread_count(threads);
 }
 
-TEST(ElasticRocks, ContinueBitForBitAfterARestart) {
-  PairProperties pair{0.3, 0.5, 0.05};
-  pair.adhesion = 20;
-  const Walls walls = walls_of(plane_wall(1, 3));
-  const DemScene scene = elastic_scene(pair);
-  DemSystem first({}, scene, walls), second({}, scene, walls);
-  fill(first, 5, 0.0205, Vec3(-0.05, -0.05, 0), 4, 5);
+TEST_P(ElasticRocksOf, EachTangentialLawContinueBitForBitAfterARestart) {
+  const Walls walls = plane_and_paddle();
+  DemSystem first({}, scene(), walls), second({}, scene(), walls);
+  fill(first, 4, 0.03, Vec3(-0.06, -0.06, 0), 8, 5);
   const double dt = first.step_size();
-  run(first, 300 * dt);
+  run(first, 1500 * dt);
   MemoryArchive archive;
   first.exchange(archive);
   archive.rewind_to_load();
   second.exchange(archive);
-  for (int k = 300; k < 600; ++k)
+  for (int k = 1500; k < 2000; ++k)
     for (DemSystem* dem : {&first, &second}) dem->step(k * dt, dt);
   EXPECT_EQ(second.state_hash(), first.state_hash());
   EXPECT_EQ(second.energy().dissipated_friction, first.energy().dissipated_friction);
   EXPECT_GT(first.overlap_max(), 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, ElasticRocksOf,
+                         testing::Values(Tangential::rescaled, Tangential::whole_stretch,
+                                         Tangential::partial_slip),
+                         [](const auto& given) -> std::string {
+                           switch (given.param) {
+                             case Tangential::rescaled:
+                               return "Rescaled";
+                             case Tangential::whole_stretch:
+                               return "WholeStretch";
+                             default:
+                               return "PartialSlip";
+                           }
+                         });
+
+TEST(ElasticRocks, KeepTheEnergyBudgetUnderEachTangentialLaw) {
+  for (Tangential law : {Tangential::whole_stretch, Tangential::partial_slip}) {
+    PairProperties pair{0.6, 0.5, 0.05};
+    pair.tangential = law;
+    EXPECT_LT(drift(pair, {make_sphere()}, 300), 3e-3);
+    EXPECT_LT(drift(pair, {make_sphere(), make_superquadric(1.3, 0.9, 3)}, 300), 3e-3);
+  }
+}
+
+TEST(ElasticRocks, RestOnASlopeByFrictionUnderEachTangentialLaw) {
+  // tan = 0.45 < mu = 0.5: a block of m = 10 stays where it is; beyond 0.5 it slides off.
+  for (Tangential law : {Tangential::rescaled, Tangential::whole_stretch, Tangential::partial_slip})
+    for (double slope : {0.45, 0.55}) {
+      PairProperties pair{0.3, 0.5, 0};
+      pair.tangential = law;
+      DemScene scene = elastic_scene(pair, {make_superquadric(1, 0.6, 10)});
+      scene.gravity = 9.81 * Vec3(slope, 0, -1).normalized();
+      const Walls walls = walls_of(plane_wall(1, 3));
+      DemSystem dem({}, scene, walls);
+      dem.add({.x = {0, 0, 0.00605}, .size = 0.02});
+      run(dem, 0.1);
+      const double settled = dem.rocks().x[0].x();
+      run(dem, 0.2);
+      const double moved = dem.rocks().x[0].x() - settled;
+      if (slope < 0.5)
+        EXPECT_LT(std::abs(moved), 1e-5) << static_cast<int>(law);
+      else
+        EXPECT_GT(moved, 0.01) << static_cast<int>(law);
+    }
 }
 
 TEST(ElasticRocks, StopRollingWithRollingResistance) {

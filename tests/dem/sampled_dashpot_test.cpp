@@ -57,7 +57,7 @@ TEST(SampledDashpot, GivesTheRestitutionToSecondOrderUnderHertz) {
     const NormalForce force = [&](double x, double closing, double dt) {
       Vec3 spring = Vec3::Zero();
       return hertz_mindlin_force(law, {x, 1, 1}, EndOfContact::no_tension, Vec3::UnitZ(), Vec3(0, 0, closing),
-                                 dt, spring)
+                                 dt, {spring})
           .normal;
     };
     const double contact = hertz_contact_time(law, {1, 1, 1}, 1, EndOfContact::no_tension);

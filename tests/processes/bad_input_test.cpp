@@ -395,6 +395,10 @@ TEST_F(BadInput, MayBeAnElasticContactWithoutElasticConstants) {
 
 TEST_F(BadInput, MayBeAKeyOfTheOtherContactLaw) {
   const std::string old = contacts_of("", "", "", "");
+  expect_refused(with(old, contacts_of("", "", ", tangential: partial_slip", "")), 12, "tangential",
+                 "'law' is linear");
+  expect_refused(with(old, contacts_of(", " + elastic, "", hertz + ", tangential: partial_slid", "")), 12,
+                 "tangential", "partial_slip");
   expect_refused(with(old, contacts_of("", elastic, "", "")), 10, "youngs_modulus",
                  "has no effect on 'steel'");
   for (const char* key : {"tangential_ratio: 0.3", "stiffness_per_size: 1e6 N/m2", "impact_overlap: 0.01"}) {
