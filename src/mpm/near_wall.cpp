@@ -23,9 +23,12 @@ constexpr int most_bodies = 16;           ///< within reach of a point
 constexpr double enough_seen_of_spray = 0.25, enough_seen_of_bulk = 0.02;
 
 /// Gives walls the impulse w (constant + slope d) of each hidden node. Where two planes lie between, as in a
-/// corner, each gets its own normal part; what is left goes to the wall that hides the nodes.
+/// corner, each gets its own normal part; what is left goes to the wall that hides the nodes. A ball that
+/// water slips past is pushed at its centre: nothing turns it but the friction of a film, and the nodes lie
+/// beside the line from its centre to where it was touched.
+/// @param slips  water does, past all bodies
 void share_out(const Surroundings& around, const HiddenNodes& hidden, const Vec3& constant, const Mat3& slope,
-               WallImpulses& out) {
+               const WallPoses& poses, bool slips, WallImpulses& out) {
   Vec3 impulse = hidden.w * constant + slope * hidden.d();
   // Sum of x_node impulse^T, from which any part's angular impulse follows.
   Mat3 first = around.x * impulse.transpose();
@@ -33,17 +36,23 @@ void share_out(const Surroundings& around, const HiddenNodes& hidden, const Vec3
   const auto turning = [](const Mat3& m) {
     return Vec3(m(1, 2) - m(2, 1), m(2, 0) - m(0, 2), m(0, 1) - m(1, 0));
   };
+  const auto give = [&](int wall, const Vec3& part, const Mat3& part_first) {
+    if (slips && poses.is_ball(wall))
+      out.add(wall, part, poses.centre(wall));
+    else
+      out.add_turning(wall, part, turning(part_first));
+  };
   if (std::popcount(hidden.between) > 1)
     for (int q = 0; q < around.plane_count; ++q) {
       if (!(hidden.between >> q & 1)) continue;
       const WallPlane& plane = around.planes[q];
       const Vec3 part = impulse.dot(plane.normal) * plane.normal;
       const Mat3 part_first = (first * plane.normal) * plane.normal.transpose();
-      out.add_turning(plane.wall, part, turning(part_first));
+      give(plane.wall, part, part_first);
       impulse -= part;
       first -= part_first;
     }
-  out.add_turning(hidden.wall, impulse, turning(first));
+  give(hidden.wall, impulse, first);
 }
 
 /// Two walls that face each other and leave less than `narrowest_gap`.
@@ -83,7 +92,9 @@ bool ExplicitMpm<Real>::hide_nodes(const Point& p, std::int32_t cell_key, std::i
   Mat3 stress;
   for (int r = 0; r < 3; ++r)
     for (int c = 0; c < 3; ++c) stress(r, c) = static_cast<double>(a.slope[c][node_lane::change + r]);
-  for (const HiddenNodes& hidden : groups.all()) share_out(around, hidden, weight, stress, impulses);
+  const bool slips = config_.wall_slip != WallSlip::no_slip;
+  for (const HiddenNodes& hidden : groups.all())
+    share_out(around, hidden, weight, stress, poses_, slips, impulses);
   for (std::uint32_t left = around.seen.hidden; left != 0; left &= left - 1) {
     const int n = std::countr_zero(left);
     a.weight[n / 3][n % 3] = 0;
@@ -241,7 +252,8 @@ void ExplicitMpm<Real>::gather_near_wall(const Point& p, const Vector& misfit, s
     const double m = static_cast<double>(p.mass());
     const Vec3 pulled = by_velocity * (ghost - v) + (pull - by_velocity) * (own_misfit - ghost_misfit);
     share_out(around, hidden, -m * (ghost_change + relax * pulled),
-              -m * relax * by_velocity * (ghost_slope - h * C), impulses);
+              -m * relax * by_velocity * (ghost_slope - h * C), poses_,
+              config_.wall_slip != WallSlip::no_slip, impulses);
   }
 }
 

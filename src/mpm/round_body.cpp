@@ -8,9 +8,6 @@ namespace sluice {
 namespace {
 constexpr int steps_to_surface = 3;
 
-bool is_ball(const RoundBody& body) {
-  return body.m == 2 && body.semi_axes[0] == body.semi_axes[1] && body.semi_axes[1] == body.semi_axes[2];
-}
 }  // namespace
 
 bool BodyFace::hides(const Vec3& p, const Vec3& q) const {
@@ -51,7 +48,7 @@ double RoundBody::about(const Vec3& x) const {
 Vec3 RoundBody::on_surface(const Vec3& rest) const {
   Vec3 x = rest;
   if (!(gauge(x) > 0)) x = Vec3(0, 0, semi_axes[2]);
-  if (!is_ball(*this))
+  if (!is_ball())
     for (int i = 0; i < steps_to_surface; ++i) {
       const Vec3 gradient = gauge_gradient(x);
       x -= (gauge(x) - 1) / gradient.squaredNorm() * gradient;
@@ -66,7 +63,7 @@ BodyFace RoundBody::face(const Vec3& x, double sharpest) const {
   BodyFace face;
   const Vec3 normal = gradient / slope;
   face.height = (rest - foot).dot(normal);
-  if (is_ball(*this)) {
+  if (is_ball()) {
     face.curvature = 1 / semi_axes[0];
   } else {
     Vec3 bend;

@@ -29,6 +29,7 @@ struct RoundBody {
   Pose pose;
   int wall = -1;  ///< index of WallPoses
 
+  bool is_ball() const { return m == 2 && semi_axes.x() == semi_axes.y() && semi_axes.x() == semi_axes.z(); }
   double gauge(const Vec3& rest) const;         ///< f, in the body's frame
   Vec3 gauge_gradient(const Vec3& rest) const;  ///< of it; zero at the centre
   /// Distance of a place in space to first order: never more than the true one outside.

@@ -40,6 +40,9 @@ class WallPoses {
   }
   /// Where a wall that is a body stands at the start of the step [m]. @pre free_body(wall) >= 0
   const Vec3& centre(int wall) const { return at(body_of(wall)).now.at; }
+  bool is_ball(int wall) const {
+    return free_body(wall) >= 0 && round_[static_cast<std::size_t>(round_of(body_of(wall)))].is_ball();
+  }
   const std::vector<RoundBody>& round() const { return round_; }  ///< the bodies and their images [m]
   /// Index in round() of a body; negative for one of the scene's motions.
   int round_of(int body) const { return body - static_cast<int>(motions_.size()); }

@@ -127,6 +127,27 @@ TEST(ResolvedRock, CarriesTheLoadOfSeveralStepsOfTheWater) {
   EXPECT_NEAR(0.17 - sinks.rocks->rocks().x[0].z(), drop, 0.05 * drop) << steps;
 }
 
+// What is missing of the drag of an ideal liquid, none, must not turn into a push.
+TEST(ResolvedRock, AsDenseAsWaterStaysWhereItIs) {
+  Bath bath(12, {.size = 4 * h, .density = 1000}, {.x = {0.1213, 0.1231, 0.1241}});
+  while (bath.t < 0.8) bath.step(Pool::Rocks::falling);
+  EXPECT_LT(bath.rocks->rocks().v[0].norm(), 0.05);
+}
+
+TEST(ResolvedRock, IsNotTurnedByWaterThatSlipsPastABall) {
+  // Dropped into the pool beside its middle, it bobs at 0.2 m/s. The film's friction may turn it.
+  const double d = 4 * h;
+  for (const WallSlip slip : {WallSlip::slip, WallSlip::turbulent_film}) {
+    Bath bath(11, {.size = d, .density = 500, .wall_slip = slip}, {.x = {0.11, 0.113, 0.2}});
+    double fastest = 0;
+    while (bath.t < 0.4) {
+      bath.step(Pool::Rocks::falling);
+      fastest = std::max(fastest, bath.rocks->rocks().w[0].norm());
+    }
+    EXPECT_LT(fastest * 0.5 * d, 0.01) << "rim speed [m/s]";
+  }
+}
+
 TEST(ResolvedRock, RestsInAHeapOfSeven) {
   const double d = 4 * h;
   Bath bath(12, {.size = d}, {.x = {0.05, 0.05, 0.06}});
