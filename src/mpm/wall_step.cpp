@@ -288,8 +288,10 @@ void ExplicitMpm<Real>::hold_at_walls(Node& node, const WaterBeside& water, Vec3
       kept = arm > 0 ? 1 / (1 + step_.dt * water.chi * rate * viscosity * cn / m) : 0.0;
     } else if (config_.wall_slip == WallSlip::turbulent_film) {
       // Stress rho f/8 |u| u on the wall area that this node stands for; implicit, so never beyond rest.
-      const double rate =
-          density * config_.film_friction / 8 * h * h * film_share(s, water.volume / (h * h * h)) / m;
+      // Seen from a ball's centre its cell is wider than what it covers of the surface.
+      const double wider = 1 + plane.curvature * s;
+      const double area = h * h * film_share(s, water.volume / (h * h * h)) / (wider * wider);
+      const double rate = density * config_.film_friction / 8 * area / m;
       kept = 1 / (1 + water.chi * rate * step_.dt * sliding.norm());
     }
     if (kept != 1) {
