@@ -23,7 +23,7 @@
 namespace sluice {
 
 constexpr std::size_t shear_rings =
-    8;  // to and fro loses 6 % too much at 0.6 of the way to sliding; 6 rings 11 %
+    8;  // to and fro loses 6 % too much at 0.6 of the way to sliding; 6 rings 8 %
 
 struct RingShear {
   Vec3 force = Vec3::Zero();  ///< that the springs oppose the stretch with, and at most the limit [N]

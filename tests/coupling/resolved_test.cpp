@@ -135,7 +135,7 @@ TEST(ResolvedRock, AsDenseAsWaterStaysWhereItIs) {
 }
 
 TEST(ResolvedRock, IsNotTurnedByWaterThatSlipsPastABall) {
-  // Dropped into the pool beside its middle, it bobs at 0.2 m/s. The film's friction may turn it.
+  // Dropped into the pool beside its middle, it bobs at 0.15 m/s. The film's friction may turn it.
   const double d = 4 * h;
   for (const WallSlip slip : {WallSlip::slip, WallSlip::turbulent_film}) {
     Bath bath(11, {.size = d, .density = 500, .wall_slip = slip}, {.x = {0.11, 0.113, 0.2}});
