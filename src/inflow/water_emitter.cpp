@@ -26,7 +26,7 @@ void WaterEmitter::advance(double t, double dt) {
   while (requested_ >= static_cast<double>(points_ + 1) * point_mass_) {
     const std::size_t outlet = points_ % outlets_.size();
     const Placed p = place(outlet, points_ / outlets_.size(), t_end);
-    fluid_->add({.x = outlets_[outlet] + p.x, .v = p.v, .mass = point_mass_});
+    fluid_->add({.x = outlets_[outlet] + p.x, .v = p.v, .mass = point_mass_, .J = p.J});
     momentum_ += point_mass_ * p.v;
     ++points_;
   }

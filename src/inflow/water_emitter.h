@@ -30,6 +30,7 @@ class WaterEmitter : public Inflow {
   struct Placed {
     Vec3 x = Vec3::Zero();  ///< [m]
     Vec3 v = Vec3::Zero();  ///< [m/s]
+    double J = 1;           ///< below 1 under pressure
   };
   /// @param flow  of all outlets together [m3/s]
   WaterEmitter(std::string name, std::vector<Vec3> outlets, double flow, double start, double stop,

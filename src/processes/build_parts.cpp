@@ -80,19 +80,21 @@ Location Builder::first_rock_source() const {
 
 Location Builder::first_water_source() const {
   if (!config_.pipes.empty()) return config_.pipes.front().where;
+  if (!config_.channels.empty()) return config_.channels.front().where;
   return config_.sprays.empty() ? config_.water_fills.front().where : config_.sprays.front().where;
 }
 
 void Builder::look_at_phases() {
   const bool rock_source = !config_.conveyors.empty() || !config_.rock_fills.empty();
-  const bool water_source = !config_.pipes.empty() || !config_.sprays.empty() || !config_.water_fills.empty();
+  const bool water_source = !config_.pipes.empty() || !config_.channels.empty() || !config_.sprays.empty() ||
+                            !config_.water_fills.empty();
   if (!config_.rocks && !config_.water)
     refuse(config_.duration_at, "duration", "has nothing to simulate",
            "the process has neither 'rocks' nor 'water'", "add one of them");
   if (!config_.rocks && rock_source)
     refuse(first_rock_source(), "rocks", "is missing", "conveyors or rock_fills bring rock", "add 'rocks:'");
   if (!config_.water && water_source)
-    refuse(first_water_source(), "water", "is missing", "pipes, sprays or water_fills bring water",
+    refuse(first_water_source(), "water", "is missing", "pipes, channels, sprays or water_fills bring water",
            "add 'water:'");
   if (config_.rocks && !rock_source)
     refuse(config_.rocks_at, "rocks", "has no source", "no conveyor and no rock_fill",
@@ -205,6 +207,8 @@ void Builder::make_inflows(const RockSources& sources) {
     });
   }
   for (const PipeJetConfig& pipe : config_.pipes) add([&] { return make_pipe_jet(pipe, target_); });
+  for (const ChannelInflowConfig& channel : config_.channels)
+    add([&] { return make_channel_inflow(channel, target_); });
   for (const SprayNozzleConfig& spray : config_.sprays)
     add([&] { return make_spray_nozzle(spray, target_); });
 }

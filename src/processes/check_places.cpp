@@ -77,6 +77,7 @@ class PlaceCheck {
 std::vector<InputProblem> misplaced(const ProcessConfig& config) {
   PlaceCheck check(config);
   for (const PipeJetConfig& pipe : config.pipes) check.outlets(pipe.where, pipe.outlets);
+  for (const ChannelInflowConfig& channel : config.channels) check.outlets(channel.where, channel.outlets);
   for (const SprayNozzleConfig& spray : config.sprays) check.outlets(spray.where, spray.outlets);
   for (const GaugeConfig& gauge : config.gauges) check.gauge(gauge);
   for (const MixingConfig& mixing : config.mixing) check.box(mixing.where, {mixing.low, mixing.high});

@@ -153,22 +153,31 @@ class Foresight {
     const MpmConfig& water = *config_.water;
     const double stated = std::max(water.fastest_speed, water.fastest_bulk_speed);
     const double c = parts_.water->limits().sound_speed;
-    for (const PipeJetConfig& pipe : config_.pipes) {
-      const double speed = pipe.speed() * profile_speed(pipe.profile, 0);
+    const auto leaves = [&](const std::string& name, double speed) {
       if (speed > most_mach * c)
-        say(
-            fmt::format("{}: leaves at {:.3g} m/s, {:.2g} of the speed of sound (bulk water stops the run at "
-                        "{:.2g}); raise {}",
-                        pipe.name, speed, speed / c, most_mach,
-                        water.sound_speed ? "'sound_speed'" : "'fastest_bulk_speed'"));
+        say(fmt::format(
+            "{}: leaves at {:.3g} m/s, {:.2g} of the speed of sound (bulk water stops the run at "
+            "{:.2g}); raise {}",
+            name, speed, speed / c, most_mach, water.sound_speed ? "'sound_speed'" : "'fastest_bulk_speed'"));
       else if (speed > 1.05 * stated)
-        say(fmt::format("{}: leaves at {:.3g} m/s, faster than 'fastest_speed' says ({:.3g} m/s)", pipe.name,
+        say(fmt::format("{}: leaves at {:.3g} m/s, faster than 'fastest_speed' says ({:.3g} m/s)", name,
                         speed, stated));
+    };
+    for (const PipeJetConfig& pipe : config_.pipes) {
+      leaves(pipe.name, pipe.speed() * profile_speed(pipe.profile, 0));
       if (pipe.bore < water.spacing)
         say(fmt::format(
             "{}: its bore of {:.3g} mm is thinner than a cell ({:.3g} mm), over which the jet will "
             "spread; lower 'spacing'",
             pipe.name, 1e3 * pipe.bore, 1e3 * water.spacing));
+    }
+    for (const ChannelInflowConfig& channel : config_.channels) {
+      leaves(channel.name, channel.speed() * profile_speed(channel.profile, 1));
+      if (std::min(channel.depth, channel.width) < water.spacing)
+        say(fmt::format(
+            "{}: its section of {:.3g} x {:.3g} mm is thinner than a cell ({:.3g} mm), over which "
+            "the water will spread; lower 'spacing'",
+            channel.name, 1e3 * channel.width, 1e3 * channel.depth, 1e3 * water.spacing));
     }
     for (const SprayNozzleConfig& spray : config_.sprays)
       if (spray.speed(water.fluid.density) > 1.05 * stated)

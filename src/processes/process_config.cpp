@@ -174,6 +174,7 @@ void ProcessConfig::keys(Schema& s) {
   s.section("coupling", coupling, {.doc = "how rock and water act on each other"});
   s.named("conveyors", conveyors, {.doc = "belts that feed rock, and with it moisture and fines"});
   s.named("pipes", pipes, {.doc = "water jets from pipes"});
+  s.named("channels", channels, {.doc = "water that comes down open channels"});
   s.named("sprays", sprays, {.doc = "spray nozzles"});
   s.named("water_fills", water_fills, {.doc = "water that is there at the start"});
   s.named("rock_fills", rock_fills, {.doc = "rocks that are there at the start"});

@@ -15,6 +15,7 @@
 #include "geometry/wall.h"
 #include "inflow/conveyor_feed.h"
 #include "inflow/initial_fill.h"
+#include "inflow/channel_inflow.h"
 #include "inflow/pipe_jet.h"
 #include "inflow/spray_nozzle.h"
 #include "mpm/mpm_system.h"
@@ -102,6 +103,7 @@ struct ProcessConfig {
   bool coupled = true;  ///< false: rock and water in one scene ignore each other
   std::vector<ConveyorFeedConfig> conveyors;
   std::vector<PipeJetConfig> pipes;
+  std::vector<ChannelInflowConfig> channels;
   std::vector<SprayNozzleConfig> sprays;
   std::vector<WaterFillConfig> water_fills;
   std::vector<RockFillConfig> rock_fills;
