@@ -55,6 +55,7 @@ class ChannelInflow : public WaterEmitter {
     up_ = upward.normalized();
     const double sound_speed = target.water->limits().sound_speed;
     squeeze_ = upward.norm() / (sound_speed * sound_speed);
+    if (is_rapid(c, upward.norm())) thrust_ = upward.norm();
   }
 
   const char* kind() const override { return "channel"; }
@@ -68,18 +69,25 @@ class ChannelInflow : public WaterEmitter {
     const double height = std::clamp(slot.height + random_.uniform(-step, step), 0.0, depth_);
     const Vec3 in_section =
         (slot.across + random_.uniform(-step, step)) * axis_.cross(up_) + (height - 0.5 * depth_) * up_;
-    return {in_section + (slot.speed * age) * axis_, slot.speed * axis_,
+    // Pressure over what passes: the push of the water behind, which is not simulated.
+    const double pushed = thrust_ * (depth_ - slot.height) / slot.speed;
+    return {in_section + (slot.speed * age) * axis_, (slot.speed + pushed) * axis_,
             1 / (1 + squeeze_ * (depth_ - height))};
   }
 
  private:
   double depth_, spacing_;
   Vec3 axis_, up_;
-  double squeeze_;  ///< 1/J - 1 under a metre of water [1/m]
+  double squeeze_;     ///< 1/J - 1 under a metre of water [1/m]
+  double thrust_ = 0;  ///< gravity across the flow, where the water behind pushes [m/s2]
   std::vector<Slot> slots_;
 };
 
 }  // namespace
+
+bool is_rapid(const ChannelInflowConfig& config, double gravity) {
+  return config.speed() * config.speed() > gravity * config.depth;
+}
 
 double profile_speed(ChannelProfile profile, double z) {
   return profile == ChannelProfile::flat ? 1 : 8.0 / 7 * std::pow(z, 1.0 / 7);

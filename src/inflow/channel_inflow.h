@@ -7,6 +7,10 @@
 ///    |..........|  depth        so that every point carries the same mass and the density is even over the
 ///    |__________|               section, for a flat as for a turbulent profile. Points come under the
 ///                               pressure of the water above them.
+///
+/// Rapid water, faster than its waves, comes with the push of the water behind it, rho g depth^2 / 2 across
+/// the width, beside its momentum; it needs no wall behind. Slow water runs back where there is none, and its
+/// depth is decided downstream.
 
 #include <memory>
 
@@ -34,6 +38,9 @@ struct ChannelInflowConfig {
 
 /// @throws InputError where the scene has no water, or the channel runs straight up or down
 std::unique_ptr<Inflow> make_channel_inflow(const ChannelInflowConfig& config, const InflowTarget& target);
+
+/// Faster than waves on it. @param gravity  across the flow [m/s2]
+bool is_rapid(const ChannelInflowConfig& config, double gravity);
 
 /// Height over depth below which the share F of the flow passes.
 double flux_height(ChannelProfile profile, double F);

@@ -173,6 +173,13 @@ class Foresight {
     }
     for (const ChannelInflowConfig& channel : config_.channels) {
       leaves(channel.name, channel.speed() * profile_speed(channel.profile, 1));
+      const double across = config_.gravity.cross(channel.outlets.axis()).norm();
+      if (!is_rapid(channel, across))
+        say(fmt::format(
+            "{}: at {:.3g} m/s its water is slower than its waves ({:.3g} m/s): it runs back unless "
+            "a wall stands behind the inlet, and what is downstream decides its depth; a smaller "
+            "'depth' makes it rapid",
+            channel.name, channel.speed(), std::sqrt(across * channel.depth)));
       if (std::min(channel.depth, channel.width) < water.spacing)
         say(fmt::format(
             "{}: its section of {:.3g} x {:.3g} mm is thinner than a cell ({:.3g} mm), over which "

@@ -31,7 +31,11 @@
 #include "validation/rock_stack.h"
 #include "validation/water_channel.h"
 #include "validation/water_dam_break.h"
+#include "validation/water_film.h"
+#include "validation/water_front.h"
 #include "validation/water_jet.h"
+#include "validation/water_launder.h"
+#include "validation/water_plate.h"
 #include "validation/water_sloshing.h"
 #include "validation/water_slot.h"
 #include "validation/water_still.h"
@@ -72,7 +76,11 @@ const std::vector<MeasureKind>& measure_kinds() {
       {"water_wave_decay", "point", made<WaterWaveDecay>},
       {"water_tilted", "point", made<WaterTilted>},
       {"water_dam_break", "point", made<WaterDamBreak>},
+      {"water_front", "point", made<WaterFront>},
       {"water_jet", "point", made<WaterJet>},
+      {"water_plate", "point", made<WaterPlate>},
+      {"water_film", "point", made<WaterFilm>},
+      {"water_launder", "point", made<WaterLaunder>},
       {"water_slot", "point", made<WaterSlot>},
       {"coupling_settling", "point", made<CouplingSettling>},
       {"coupling_hindered", "point", made<CouplingHindered>},

@@ -54,6 +54,18 @@ TEST(ChannelInflow, CarriesTheMomentumOfItsMeanSpeed) {
   }
 }
 
+TEST(ChannelInflow, BringsThePushOfTheWaterBehindWhereItIsRapid) {
+  FakeFluid fluid(spacing);
+  const ChannelInflowConfig c = channel(0.24);  // 4 m/s, waves 1.4 m/s
+  ASSERT_TRUE(is_rapid(c, g));
+  ASSERT_FALSE(is_rapid(channel(0.06), g));
+  const auto inflow = make_channel_inflow(c, into(fluid));
+  feed(*inflow, 400, 1e-3);
+  const double rate = 1000 * 0.24 * 4 + 0.5 * 1000 * g * 0.2 * 0.2 * 0.3;  // [N]
+  const double wanted = rate * inflow->water().entered / (1000 * 0.24);
+  EXPECT_NEAR(inflow->water().momentum.x(), wanted, 1e-3 * wanted);
+}
+
 TEST(ChannelInflow, FillsItsSectionEvenly) {
   FakeFluid fluid(spacing);
   const auto inflow = make_channel_inflow(channel(0.06), into(fluid));  // 1 m/s
