@@ -88,6 +88,7 @@ Curve published(const CsvTable& table, const WaterFront& c) {
 
 Measured WaterFront::run(const CsvTable& reference) const {
   const double slope = reference_numbers(reference, "slope").front();
+  const double scale = reference_numbers(reference, "scale").front();
   const double h = height / cells, across = 4 * h, reach = (last + 0.3) * width;
   WaterSetup setup;
   setup.config.spacing = h;
@@ -121,7 +122,7 @@ Measured WaterFront::run(const CsvTable& reference) const {
 
   Measured out;
   out.particle_steps = scene.point_steps;
-  out.values.push_back({"slope of the front", slope_of(between(found, first, last, 50)), slope, slope});
+  out.values.push_back({"slope of the front", slope_of(between(found, first, last, 50)), slope, scale});
   const auto table = measured_table(curve);
   if (!table) {
     out.note = without_table(curve);

@@ -1,10 +1,10 @@
 #pragma once
 /// The front of a column of water that collapses on a dry floor, over cells in its height.
 ///
-/// Reference: column `slope`, of the measured front: dZ/dT between Z = 1.45 and `last`, with Z the front's
-/// distance from the closed end over the column's width and T = t sqrt(g H) / width. The whole curve is read
-/// from `curve`: points between these places, after one shift in time, since experiments do not know when
-/// their gate was gone.
+/// Reference: columns `slope` and `scale`, what a difference of slopes is measured against, of the measured
+/// front: dZ/dT between Z = 1.45 and `last`, with Z the front's distance from the closed end over the
+/// column's width and T = t sqrt(g H) / width. The whole curve is read from `curve`: points between these
+/// places, after one shift in time, since experiments do not know when their gate was gone.
 
 #include "validation/measure.h"
 
