@@ -144,6 +144,22 @@ TEST_F(BadInput, IsNotFoundInTheUnspoiltScene) {
   for (const InputProblem& p : problems_of(scene)) ADD_FAILURE() << p.text();
 }
 
+TEST_F(BadInput, MayBeAChannelThatIsNone) {
+  const auto channel = [](const std::string& keys) {
+    return with("exits:\n  bottom:",
+                "channels:\n  launder:\n" + keys + "    position: [0.5 m, 0.5 m, 0.6 m]\nexits:\n  bottom:");
+  };
+  const std::string section = "    width: 0.3 m\n    depth: 0.1 m\n";
+  for (const InputProblem& p :
+       problems_of(channel(section + "    direction: [1, 0, 0]\n    flow: 200 m3/h\n")))
+    ADD_FAILURE() << p.text();
+  expect_refused(channel(section + "    direction: [1, 0, 0]\n"), 58, "flow", "'total_flow'");
+  expect_refused(channel(section + "    direction: [0, 0, -1]\n    flow: 200 m3/h\n"), 58, "direction",
+                 "'pipes'");
+  expect_refused(channel("    width: 0.3 m\n    direction: [1, 0, 0]\n    flow: 200 m3/h\n"), 58, "depth",
+                 "is missing");
+}
+
 TEST_F(BadInput, MayBeAnUnknownKey) {
   expect_refused(with("  spacing: 100 mm", "  spacing: 100 mm\n  spacng: 3 mm"), 24, "spacng",
                  "did you mean 'spacing'?");

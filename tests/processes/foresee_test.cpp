@@ -45,6 +45,14 @@ TEST(Foresight, TellsThatRocksStartTooFast) {
                    {"land at 30", "'impact_speed'"}));
 }
 
+TEST(Foresight, TellsThatAChannelIsSlowerThanItsWavesOrThinnerThanACell) {
+  const std::string launder = "../../../processes/launder/rapid.yaml";
+  EXPECT_TRUE(said_of(launder).empty()) << said_of(launder).front();
+  EXPECT_TRUE(
+      says(said_of(launder, {"channels.inlet.flow=10 m3/h"}), {"slower than its waves", "0.347", "0.623"}));
+  EXPECT_TRUE(says(said_of(launder, {"water.spacing=50 mm"}), {"200 x 40 mm", "thinner than a cell"}));
+}
+
 TEST(Foresight, TellsThatSoundIsTooSlow) {
   EXPECT_TRUE(says(said_of("tank.yaml", {"water.sound_speed=5 m/s"}), {"'sound_speed' to 20"}));
 }
