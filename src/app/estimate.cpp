@@ -51,9 +51,9 @@ RunEstimate estimate_run(const ProcessConfig& config, const Simulation& simulati
   if (parts.water) {
     double flow = 0;  // m3/s
     for (const PipeJetConfig& pipe : config.pipes)
-      flow += pipe.flow_each() * static_cast<double>(pipe.outlets.open_outlets().size());
+      flow += pipe.outlets.flow_each() * static_cast<double>(pipe.outlets.open_outlets().size());
     for (const ChannelInflowConfig& channel : config.channels)
-      flow += channel.flow_each() * static_cast<double>(channel.outlets.open_outlets().size());
+      flow += channel.outlets.flow_each() * static_cast<double>(channel.outlets.open_outlets().size());
     for (const SprayNozzleConfig& spray : config.sprays)
       flow += spray.flow_each() * static_cast<double>(spray.outlets.open_outlets().size());
     for (const ConveyorFeedConfig& feed : config.conveyors)

@@ -42,6 +42,10 @@ void OutletRow::keys(Schema& s) {
     s.problem("blocked", "closes every outlet", "no water would come", "leave one open or drop the entry");
 }
 
+double OutletRow::flow_each() const {
+  return flow ? *flow : total_flow.value_or(0) / static_cast<double>(open_outlets().size());
+}
+
 std::vector<Vec3> OutletRow::open_outlets() const {
   std::vector<Vec3> open;
   for (std::int64_t i = 0; i < count; ++i)

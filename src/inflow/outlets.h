@@ -24,6 +24,8 @@ struct OutletRow {
 
   void keys(Schema& s);
   Vec3 axis() const { return direction.normalized(); }
+  /// Of one open outlet, where a flow is given [m3/s].
+  double flow_each() const;
   /// Middles of the outlets that are open [m].
   std::vector<Vec3> open_outlets() const;
 };

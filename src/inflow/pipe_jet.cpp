@@ -56,8 +56,9 @@ class PipeJet : public WaterEmitter {
  public:
   PipeJet(const PipeJetConfig& c, const InflowTarget& target)
       : WaterEmitter(c.name, c.outlets.open_outlets(),
-                     c.flow_each() * static_cast<double>(c.outlets.open_outlets().size()), c.outlets.start,
-                     c.outlets.stop.value_or(std::numeric_limits<double>::infinity()), target),
+                     c.outlets.flow_each() * static_cast<double>(c.outlets.open_outlets().size()),
+                     c.outlets.start, c.outlets.stop.value_or(std::numeric_limits<double>::infinity()),
+                     target),
         spacing_(std::cbrt(target.water->point_volume())),
         axis_(c.outlets.axis()),
         across_(tangent_frame(axis_)),
@@ -116,13 +117,8 @@ void PipeJetConfig::keys(Schema& s) {
     s.problem("flow", "is missing", "a pipe needs its flow", "give 'flow' (of each pipe) or 'total_flow'");
 }
 
-double PipeJetConfig::flow_each() const {
-  return outlets.flow ? *outlets.flow
-                      : outlets.total_flow.value_or(0) / static_cast<double>(outlets.open_outlets().size());
-}
-
 double PipeJetConfig::speed() const {
-  return flow_each() / (0.25 * pi * bore * bore);
+  return outlets.flow_each() / (0.25 * pi * bore * bore);
 }
 
 std::unique_ptr<Inflow> make_pipe_jet(const PipeJetConfig& config, const InflowTarget& target) {

@@ -26,8 +26,7 @@ struct PipeJetConfig {
   OutletRow outlets;
   Location where;
   void keys(Schema& s);
-  double flow_each() const;  ///< of one open pipe [m3/s]
-  double speed() const;      ///< mean over the bore [m/s]
+  double speed() const;  ///< mean over the bore [m/s]
 };
 
 /// @throws InputError where the scene has no water

@@ -21,7 +21,7 @@ TEST(OutletRow, SharesTheWaterAndLeavesOutWhatIsBlocked) {
   c.outlets.count = 4;
   c.outlets.spacing = Vec3(0, 0.5, 0);
   c.outlets.blocked = {2};
-  EXPECT_DOUBLE_EQ(c.flow_each(), 0.01);
+  EXPECT_DOUBLE_EQ(c.outlets.flow_each(), 0.01);
   const auto jet = make_pipe_jet(c, into(fluid));
   feed(*jet, 100, 1e-3);
   std::vector<int> at(4);
