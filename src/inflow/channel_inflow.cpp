@@ -45,8 +45,9 @@ class ChannelInflow : public WaterEmitter {
  public:
   ChannelInflow(const ChannelInflowConfig& c, const InflowTarget& target)
       : WaterEmitter(c.name, c.outlets.open_outlets(),
-                     c.flow_each() * static_cast<double>(c.outlets.open_outlets().size()), c.outlets.start,
-                     c.outlets.stop.value_or(std::numeric_limits<double>::infinity()), target),
+                     c.outlets.flow_each() * static_cast<double>(c.outlets.open_outlets().size()),
+                     c.outlets.start, c.outlets.stop.value_or(std::numeric_limits<double>::infinity()),
+                     target),
         depth_(c.depth),
         spacing_(std::cbrt(target.water->point_volume())),
         axis_(c.outlets.axis()),
@@ -89,6 +90,16 @@ bool is_rapid(const ChannelInflowConfig& config, double gravity) {
   return config.speed() * config.speed() > gravity * config.depth;
 }
 
+double fastest_speed(const ChannelInflowConfig& config, double gravity) {
+  const double thrust = is_rapid(config, gravity) ? gravity : 0;
+  double fastest = 0;
+  for (const double z : {0.05, 1.0}) {  // pushed most at the bed, flowing fastest at the surface
+    const double speed = config.speed() * profile_speed(config.profile, z);
+    fastest = std::max(fastest, speed + thrust * (1 - z) * config.depth / speed);
+  }
+  return fastest;
+}
+
 double profile_speed(ChannelProfile profile, double z) {
   return profile == ChannelProfile::flat ? 1 : 8.0 / 7 * std::pow(z, 1.0 / 7);
 }
@@ -111,13 +122,8 @@ void ChannelInflowConfig::keys(Schema& s) {
               "give 'flow' (of each channel) or 'total_flow'");
 }
 
-double ChannelInflowConfig::flow_each() const {
-  return outlets.flow ? *outlets.flow
-                      : outlets.total_flow.value_or(0) / static_cast<double>(outlets.open_outlets().size());
-}
-
 double ChannelInflowConfig::speed() const {
-  return flow_each() / (width * depth);
+  return outlets.flow_each() / (width * depth);
 }
 
 std::unique_ptr<Inflow> make_channel_inflow(const ChannelInflowConfig& config, const InflowTarget& target) {

@@ -32,8 +32,7 @@ struct ChannelInflowConfig {
   OutletRow outlets;  ///< the middle of the section is the outlet's
   Location where;
   void keys(Schema& s);
-  double flow_each() const;  ///< of one open channel [m3/s]
-  double speed() const;      ///< mean over the section [m/s]
+  double speed() const;  ///< mean over the section [m/s]
 };
 
 /// @throws InputError where the scene has no water, or the channel runs straight up or down
@@ -41,6 +40,9 @@ std::unique_ptr<Inflow> make_channel_inflow(const ChannelInflowConfig& config, c
 
 /// Faster than waves on it. @param gravity  across the flow [m/s2]
 bool is_rapid(const ChannelInflowConfig& config, double gravity);
+
+/// Of the water as it comes in, with the push of the water behind it. @param gravity  across the flow [m/s2]
+double fastest_speed(const ChannelInflowConfig& config, double gravity);
 
 /// Height over depth below which the share F of the flow passes.
 double flux_height(ChannelProfile profile, double F);

@@ -172,8 +172,8 @@ class Foresight {
             pipe.name, 1e3 * pipe.bore, 1e3 * water.spacing));
     }
     for (const ChannelInflowConfig& channel : config_.channels) {
-      leaves(channel.name, channel.speed() * profile_speed(channel.profile, 1));
       const double across = config_.gravity.cross(channel.outlets.axis()).norm();
+      leaves(channel.name, fastest_speed(channel, across));
       if (!is_rapid(channel, across))
         say(fmt::format(
             "{}: at {:.3g} m/s its water is slower than its waves ({:.3g} m/s): it runs back unless "

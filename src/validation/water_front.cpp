@@ -1,5 +1,7 @@
 #include "validation/water_front.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -81,6 +83,9 @@ Curve published(const CsvTable& table, const WaterFront& c) {
     out.time.push_back(time[k]);
     out.place.push_back(place[k]);
   }
+  if (out.time.empty())
+    throw EnvironmentError(
+        fmt::format("{}: no point of '{}' lies between {} and {}", c.curve, c.series, first, c.last));
   return out;
 }
 
@@ -117,7 +122,8 @@ Measured WaterFront::run(const CsvTable& reference) const {
       found.time.push_back(scene.t * per_time);
       found.place.push_back(at);
     }
-    if (scene.t * per_time > 10) throw NumericalError("validation", scene.t, "the front does not come", "");
+    if (scene.t * per_time > 10)
+      throw NumericalError("validation", scene.t, "the front does not come so far", "lower 'last'");
   }
 
   Measured out;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "base/errors.h"
@@ -64,6 +65,9 @@ TEST(ChannelInflow, BringsThePushOfTheWaterBehindWhereItIsRapid) {
   const double rate = 1000 * 0.24 * 4 + 0.5 * 1000 * g * 0.2 * 0.2 * 0.3;  // [N]
   const double wanted = rate * inflow->water().entered / (1000 * 0.24);
   EXPECT_NEAR(inflow->water().momentum.x(), wanted, 1e-3 * wanted);
+  double fastest = 0;
+  for (const Vec3& v : fluid.points().v) fastest = std::max(fastest, v.x());
+  EXPECT_NEAR(fastest, fastest_speed(c, g), 0.01 * fastest);
 }
 
 TEST(ChannelInflow, FillsItsSectionEvenly) {
